@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "bem/boundary_element_method.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include "bem/body_surface.h"
+#include "bem/exchanged_system.h"
+#include "greens/reciprocity.h"
+#include "linear_algebra/dense_lu.h"
+#include "linear_algebra/multi_precision_solve.h"
+#include "parallel.h"
+
+namespace palpate {
+namespace {
+
+using bem::BodySurface;
+using bem::CollocationScheme;
+
+constexpr double kAssembleShare = 0.1;  // of the time, for the progress display
+
+class Stopwatch {
+ public:
+  double seconds() {
+    const auto now = std::chrono::steady_clock::now();
+    const double elapsed = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return elapsed;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void addSeconds(Diagnostics& diagnostics, const std::string& stage, double seconds) {
+  for (auto& entry : diagnostics.seconds)
+    if (entry.first == stage) {
+      entry.second += seconds;
+      return;
+    }
+  diagnostics.seconds.emplace_back(stage, seconds);
+}
+
+/// Green's functions of all bodies in one matrix of the given storage.
+template <class Scalar>
+class Precomputation {
+ public:
+  Precomputation(const ElasticModel& model, const BoundaryElementOptions& options,
+                 GreensFunctionsInfo& info, std::vector<PatchColumn>& patchColumns,
+                 const Progress& progress)
+      : model_(model),
+        options_(options),
+        info_(info),
+        patchColumns_(patchColumns),
+        progress_(progress) {}
+
+  AlignedBuffer<Scalar> run() {
+    const int bodies = BodySurface::bodyCount(model_);
+    if (options_.patchColumns)
+      for (int body = 0; body < bodies; ++body) listPatchColumns(BodySurface(model_, body));
+    const std::size_t rows = 3 * std::size_t(model_.mesh().vertexCount());
+    const std::size_t columns = 3 * (info_.columnNodes.size() + patchColumns_.size());
+    if (bodies > 1) {
+      matrix_ = AlignedBuffer<Scalar>(rows * columns);
+      std::memset(matrix_.data(), 0, matrix_.bytes());
+    }
+    for (int body = 0; body < bodies; ++body)
+      computeBody(BodySurface(model_, body),
+                  progress_.part(double(body) / bodies, double(body + 1) / bodies));
+    return std::move(matrix_);
+  }
+
+ private:
+  void listPatchColumns(const BodySurface& body) {
+    for (int v = 0; v < body.vertexCount(); ++v) {
+      if (body.fixed[v] || body.nodes.end(v) - body.nodes.first(v) < 2) continue;
+      for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node)
+        patchColumns_.push_back({body.vertices[v], body.nodes.patch[node]});
+    }
+  }
+
+  /// Which columns of the result belong to a body: local vertex or traction node, and the column.
+  struct BodyColumns {
+    bem::SystemColumns wanted;
+    std::vector<int> resultColumn;
+  };
+
+  BodyColumns columnsOf(const BodySurface& body) const {
+    std::vector<int> local(model_.mesh().vertexCount(), -1);
+    for (int v = 0; v < body.vertexCount(); ++v) local[body.vertices[v]] = v;
+    BodyColumns columns;
+    for (std::size_t c = 0; c < info_.columnNodes.size(); ++c) {
+      const int v = local[info_.columnNodes[c]];
+      if (v < 0) continue;
+      columns.wanted.vertices.push_back(v);
+      columns.resultColumn.push_back(static_cast<int>(c));
+    }
+    for (std::size_t c = 0; c < patchColumns_.size(); ++c) {
+      const int v = local[patchColumns_[c].node];
+      if (v < 0) continue;
+      for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node)
+        if (body.nodes.patch[node] == patchColumns_[c].patch)
+          columns.wanted.patchTractions.push_back(node);
+      columns.resultColumn.push_back(static_cast<int>(info_.columnNodes.size() + c));
+    }
+    return columns;
+  }
+
+  void computeBody(const BodySurface& body, const Progress& progress) {
+    const BodyColumns columns = columnsOf(body);
+    if (columns.resultColumn.empty()) return;
+    const int threads = threadCount(options_.threads);
+    Diagnostics& diagnostics = info_.diagnostics;
+    Stopwatch watch;
+    const CollocationScheme scheme(body);
+    bem::ExchangedSystem<Scalar> system =
+        bem::assembleSystem<Scalar>(body, scheme, columns.wanted, options_.tolerance, threads,
+                                    progress.part(0, kAssembleShare));
+    addSeconds(diagnostics, "assemble", watch.seconds());
+
+    const BlasThreads blasThreads(threads);
+    const SolveReport report = solve(system, progress.part(kAssembleShare, 1));
+    system.matrix = {};
+    addSeconds(diagnostics, "solve", watch.seconds());
+    diagnostics.conditionEstimate =
+        std::max(diagnostics.conditionEstimate, report.conditionEstimate);
+    diagnostics.solverResidual = std::max(diagnostics.solverResidual, report.residual);
+    diagnostics.rotationDefect = std::max(diagnostics.rotationDefect, system.rotationDefect);
+    diagnostics.peakBytes = std::max(diagnostics.peakBytes, report.peakBytes + matrix_.bytes());
+    averageTractions(body, scheme, system);
+    scaleToModel(body, columns, system);
+    scatter(body, columns, system);
+  }
+
+  SolveReport solve(bem::ExchangedSystem<Scalar>& system, const Progress& progress) const {
+    if constexpr (std::is_same_v<Scalar, double>)
+      if (options_.precision == Precision::Mixed)
+        return solveMixedInPlace(system.matrix, system.size, system.stride, system.right,
+                                 system.columns, progress);
+    return solveInPlace(system.matrix, system.size, system.stride, system.right, system.columns,
+                        progress);
+  }
+
+  using Columns =
+      Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+  static Columns solution(bem::ExchangedSystem<Scalar>& system) {
+    return Columns(system.right.data(), system.size, system.columns,
+                   Eigen::OuterStride<>(system.stride));
+  }
+
+  /// A fixed vertex's row becomes the area-weighted mean of its patches' tractions, so that area
+  /// times row is the exact reaction.
+  void averageTractions(const BodySurface& body, const CollocationScheme& scheme,
+                        bem::ExchangedSystem<Scalar>& system) const {
+    Columns x = solution(system);
+    std::vector<double> area(body.vertexCount(), 0);
+    for (int node = 0; node < body.nodes.count(); ++node)
+      area[body.nodes.vertex[node]] += body.nodes.area[node];
+    for (std::size_t t = 0; t < scheme.tractions.size(); ++t) {
+      const int v = scheme.tractions[t].vertex, block = scheme.columnOfTraction[t];
+      const Scalar share = static_cast<Scalar>(scheme.tractions[t].area / area[v]);
+      if (block == v)
+        x.template middleRows<3>(3 * v) *= share;
+      else
+        x.template middleRows<3>(3 * v) += share * x.template middleRows<3>(3 * block);
+    }
+  }
+
+  /// From lengths of the body and unit shear modulus to the model's units.
+  void scaleToModel(const BodySurface& body, const BodyColumns& columns,
+                    bem::ExchangedSystem<Scalar>& system) const {
+    Columns x = solution(system);
+    const double shearModulus = model_.material().shearModulus();
+    for (int c = 0; c < columns.wanted.count(); ++c) {
+      const bool givenDisplacement = c < static_cast<int>(columns.wanted.vertices.size()) &&
+                                     body.fixed[columns.wanted.vertices[c]];
+      const double perGiven = givenDisplacement ? 1 / body.length : 1 / shearModulus;
+      for (int v = 0; v < body.vertexCount(); ++v)
+        x.template block<3, 3>(3 * v, 3 * c) *=
+            static_cast<Scalar>(perGiven * (body.fixed[v] ? shearModulus : body.length));
+    }
+  }
+
+  /// Moves a body's columns into the result; a single body's matrix becomes the result in place.
+  void scatter(const BodySurface& body, const BodyColumns& columns,
+               bem::ExchangedSystem<Scalar>& system) {
+    const std::size_t rows = 3 * std::size_t(model_.mesh().vertexCount());
+    if (BodySurface::bodyCount(model_) == 1) {
+      for (int c = 0; c < system.columns && rows < std::size_t(system.stride); ++c)
+        std::memmove(system.right.data() + c * rows,
+                     system.right.data() + c * std::size_t(system.stride), rows * sizeof(Scalar));
+      matrix_ = std::move(system.right);
+      return;
+    }
+    for (int c = 0; c < columns.wanted.count(); ++c)
+      for (int j = 0; j < 3; ++j) {
+        const Scalar* from = system.right.data() + (3 * std::size_t(c) + j) * system.stride;
+        Scalar* to = matrix_.data() + (3 * std::size_t(columns.resultColumn[c]) + j) * rows;
+        for (int v = 0; v < body.vertexCount(); ++v)
+          std::copy_n(from + 3 * v, 3, to + 3 * std::size_t(body.vertices[v]));
+      }
+  }
+
+  const ElasticModel& model_;
+  const BoundaryElementOptions& options_;
+  GreensFunctionsInfo& info_;
+  std::vector<PatchColumn>& patchColumns_;
+  Progress progress_;
+  AlignedBuffer<Scalar> matrix_;
+};
+
+std::vector<int> checkedColumns(const ElasticModel& model, const std::vector<int>& columns) {
+  if (columns.empty()) return model.conditions().freeNodes();
+  std::vector<int> sorted = columns;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (int node : {sorted.front(), sorted.back()})
+    if (node < 0 || node >= model.mesh().vertexCount())
+      throw std::invalid_argument("there is no node " + std::to_string(node) +
+                                  " to compute Green's functions of: the model has " +
+                                  std::to_string(model.mesh().vertexCount()) + " nodes");
+  return sorted;
+}
+
+std::string describeSource(const ElasticModel& model, const BoundaryElementOptions& options) {
+  static const char* const precisions[] = {"double", "mixed", "float"};
+  std::ostringstream text;
+  text << "boundary elements (collocation, linear triangles), "
+       << (model.domain() == Domain::Exterior ? "exterior" : "interior") << " domain, "
+       << precisions[static_cast<int>(options.precision)] << " precision, integration tolerance "
+       << options.tolerance << ", " << (options.reciprocal ? "reciprocal" : "raw");
+  return text.str();
+}
+
+/// A fully fixed incompressible body would leave its mean pressure undetermined.
+void requireDeterminedPressure(const ElasticModel& model, const std::vector<int>& columns) {
+  if (model.material().poissonRatio() < 0.5 || model.domain() == Domain::Exterior) return;
+  std::vector<bool> hasFree(model.mesh().bodyCount(), false);
+  for (int node : model.conditions().freeNodes()) hasFree[model.mesh().bodyOfVertex(node)] = true;
+  for (int node : columns)
+    if (!hasFree[model.mesh().bodyOfVertex(node)])
+      throw std::invalid_argument(
+          "the body of vertex " + std::to_string(node) +
+          " is incompressible and fixed all over: its pressure is undetermined");
+}
+
+template <class Scalar>
+void finish(AlignedBuffer<Scalar>& matrix, const ElasticModel& model,
+            const BoundaryElementOptions& options, GreensFunctionsInfo& info) {
+  Stopwatch watch;
+  info.diagnostics.reciprocityDefect = makeReciprocal(
+      matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal);
+  info.reciprocal = options.reciprocal;
+  if (model.domain() == Domain::Interior) {
+    const DenseGreensFunctions<Scalar> view(info, matrix.data(), nullptr);
+    info.diagnostics.rockingCompliance = rockingCompliance(view, model.mesh());
+  }
+  addSeconds(info.diagnostics, "check", watch.seconds());
+}
+
+}  // namespace
+
+std::shared_ptr<const GreensFunctions> BoundaryElementResult::take() {
+  if (floatMatrix.size() > 0)
+    return std::make_shared<DenseGreensFunctions<float>>(std::move(info), std::move(floatMatrix));
+  return std::make_shared<DenseGreensFunctions<double>>(std::move(info), std::move(matrix));
+}
+
+BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& model,
+                                                            const BoundaryElementOptions& options,
+                                                            const ProgressCallback& progress) {
+  if (!(options.tolerance >= 0 && options.tolerance < 1))
+    throw std::invalid_argument("the integration tolerance must be at least 0 and below 1, not " +
+                                std::to_string(options.tolerance));
+  BoundaryElementResult result;
+  GreensFunctionsInfo& info = result.info;
+  info.conditions = model.conditions();
+  info.material = model.material();
+  info.domain = model.domain();
+  info.vertexAreas = model.mesh().vertexAreas();
+  info.columnNodes = checkedColumns(model, options.columns);
+  info.fingerprint = model.fingerprint();
+  info.source = describeSource(model, options);
+  info.diagnostics.quadratureTolerance = options.tolerance;
+  info.diagnostics.warnings =
+      modelWarnings(model, info.diagnostics.wallRatio, info.diagnostics.supportWidth);
+  requireDeterminedPressure(model, info.columnNodes);
+
+  const Progress whole(progress);
+  if (options.precision == Precision::Float) {
+    result.floatMatrix =
+        Precomputation<float>(model, options, info, result.patchColumns, whole).run();
+    finish(result.floatMatrix, model, options, info);
+  } else {
+    result.matrix = Precomputation<double>(model, options, info, result.patchColumns, whole).run();
+    finish(result.matrix, model, options, info);
+  }
+  whole.report(1, "done");
+  return result;
+}
+
+}  // namespace palpate

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "greens/dense_greens_functions.h"
+#include "model/elastic_model.h"
+#include "progress.h"
+
+namespace palpate {
+
+/// Arithmetic and storage of precomputed Green's functions.
+enum class Precision {
+  Double,  ///< factored, solved and stored in double
+  Mixed,   ///< factored in float, refined and stored in double
+  Float,   ///< factored, solved and stored in float: half the memory, about 1e-5 relative
+};
+
+struct BoundaryElementOptions {
+  Precision precision = Precision::Double;
+  /// Relative tolerance of each integral over a triangle. The default costs less than the
+  /// discretisation error of any mesh that it is used on.
+  double tolerance = 1e-6;
+  /// Nodes whose Green's functions are computed; empty for all free nodes ([JP01] section 3.6).
+  std::vector<int> columns;
+  /// Also compute, at free vertices on sharp edges, the response to a traction on one patch alone.
+  bool patchColumns = false;
+  /// Symmetrise the force compliance between free nodes (exact Green's functions are reciprocal).
+  bool reciprocal = true;
+  int threads = 0;  ///< 0 for all cores
+};
+
+/// Response to a traction on one smooth patch of a vertex alone.
+struct PatchColumn {
+  int node, patch;
+};
+
+/// Green's functions of a boundary element model. Exactly one of the two matrices is filled.
+struct BoundaryElementResult {
+  GreensFunctionsInfo info;
+  AlignedBuffer<double> matrix;           ///< 3 #V by 3 (#columns + #patch columns)
+  AlignedBuffer<float> floatMatrix;       ///< the same in float, for Precision::Float
+  std::vector<PatchColumn> patchColumns;  ///< stored behind the nodes' columns
+
+  /// As the interface that consumers use (the patch columns stay out of it). Leaves this empty.
+  std::shared_ptr<const GreensFunctions> take();
+};
+
+/// Computes the discrete Green's functions of a homogeneous isotropic body by collocation of the
+/// boundary integral equation with linear displacements and tractions on flat triangles ([JP01]
+/// section 3.4, eq. 8-13). Each body of the model is a system of its own.
+/// @throws std::invalid_argument for columns out of range; Aborted; std::bad_alloc;
+///         std::runtime_error if a system is singular.
+BoundaryElementResult computeBoundaryElementGreensFunctions(
+    const ElasticModel& model, const BoundaryElementOptions& options = {},
+    const ProgressCallback& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+// The inner loop of the boundary element method: integrals of the Kelvin kernels times hat
+// functions over flat triangles, for a *panel* of eight collocation points at a time. The
+// implementation is compiled once per instruction set and chosen at run time, so this header holds
+// plain data only.
+
+namespace palpate::bem {
+
+constexpr int kLanes = 8;         ///< collocation points of a panel
+constexpr int kLargestRule = 16;  ///< points of the largest quadrature rule
+constexpr int kRuleCount = 3;     ///< quadrature rules in use, from cheap to dear
+
+/// A symmetric quadrature rule on a triangle, ready for use: weight times hat function.
+struct PanelRule {
+  int pointCount;
+  double barycentric[kLargestRule][3];
+  double weightedHat[3][kLargestRule];  ///< weights sum to 1 over the points
+  double smallestDistance;  ///< from the centroid, in triangle radii, at which it is accurate
+};
+
+/// A triangle with everything that the integrals need, in non-dimensional coordinates.
+struct PanelTriangle {
+  double vertex[3][3];
+  double axis1[3], axis2[3], normal[3];  ///< right-handed local frame; axis1 along the first edge
+  double planar[3][2];                   ///< the vertices in that frame, relative to vertex 0
+  double tangent[3][2];                  ///< of the edge from vertex k to k + 1, in the frame
+  double outward[3][2];                  ///< in-plane normal of that edge
+  double length[3];                      ///< of that edge
+  double gradient[3][2];                 ///< of vertex k's hat function
+  double centroid[3];
+  double area;
+  double radius;        ///< largest distance from the centroid to a vertex
+  int vertexIndex[3];   ///< block of H to add to
+  int tractionNode[3];  ///< block of G to add to
+};
+
+/// Marks the lanes of a panel whose point lies on the triangle: barycentric coordinates there, and
+/// zeros in every other lane.
+struct OwnTriangle {
+  double barycentric[3][kLanes];
+  double mask[kLanes];  ///< 1 where the point lies on the triangle, else 0
+};
+
+/// One panel's work. H blocks hold 9 components (row-major 3 by 3) of kLanes values, G blocks the 6
+/// components xx, xy, xz, yy, yz, zz of kLanes values.
+///
+/// On a point's own triangles the hat functions of H are taken less their value at the point: what
+/// is left out is the same for all and follows from rigid translation.
+struct PanelTask {
+  double x[3][kLanes];  ///< collocation points
+  const PanelTriangle* triangles;
+  int triangleCount;
+  const int* ownIndex;  ///< #triangles, index into `own`, or -1
+  const OwnTriangle* own;
+  const PanelRule* rules;  ///< kRuleCount of them, dearest first
+  double poissonRatio;
+  double* h;              ///< #V blocks, added to
+  double* g;              ///< #traction nodes blocks, added to
+  long* closedFormCount;  ///< counts the panel-triangle pairs integrated in closed form
+};
+
+/// Adds the integrals of all triangles to a panel's blocks, for unit shear modulus:
+///   H_j += integral of T(x, y) phi_j(y) dS_y,   G_j += integral of U(x, y) phi_j(y) dS_y,
+/// with Kelvin's displacement U and traction T (load at x, response at y). Far triangles use the
+/// cheapest rule that their distance admits, near and singular ones closed forms.
+void integratePanel(const PanelTask& task);
+
+}  // namespace palpate::bem

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "contact/surface_stiffness.h"
+
+namespace palpate {
+
+/// A place on the surface in surface coordinates.
+struct SurfacePoint {
+  int triangle;
+  Eigen::Vector3d barycentric;
+};
+
+/// The points of a contact ([JP01] fig. 8) and what acts there.
+struct ContactResponse {
+  Eigen::Vector3d force;                ///< on the body, N
+  Eigen::Vector3d staticPoint;          ///< x^C, on the undeformed surface
+  Eigen::Vector3d elasticPoint;         ///< x^E, the same material point deformed
+  Eigen::Vector3d hapticPoint;          ///< x^H, where the probe is
+  Eigen::Vector3d elasticDisplacement;  ///< u^E = x^E - x^C
+  Eigen::Vector3d hapticDisplacement;   ///< u^H = x^H - x^C
+};
+
+/// Point-like contact anywhere on a surface through its vertices' masks ([JP01] section 6.3).
+class PointContact {
+ public:
+  /// @throws std::invalid_argument if the triangle or the barycentric coordinates are out of range.
+  PointContact(std::shared_ptr<const SurfaceStiffness> stiffness, const SurfacePoint& point);
+
+  /// Force of a prescribed displacement, f = K^H(x) u^H. The elastic displacement that goes with it
+  /// is smaller than the haptic one where the surface is stiffer than k_Rigid.
+  ContactResponse displace(const Eigen::Vector3d& displacement) const;
+
+  /// Displacement under a prescribed force, u^H = K^H(x)^-1 f.
+  ContactResponse push(const Eigen::Vector3d& force) const;
+
+  /// All nodes' displacements and tractions under a force here (eq. 35): each vertex of the
+  /// triangle that is free carries its barycentric share, spread by its mask. The share of a fixed
+  /// vertex goes into the support.
+  /// @param displacement, traction  3 by #nodes, overwritten; m, Pa.
+  void deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
+              Eigen::Matrix3Xd& traction) const;
+
+ private:
+  ContactResponse respond(const Eigen::Vector3d& force,
+                          const Eigen::Vector3d& hapticDisplacement) const;
+  Eigen::Vector3d elasticDisplacementUnder(const Eigen::Vector3d& force) const;
+
+  std::shared_ptr<const SurfaceStiffness> stiffness_;
+  SurfacePoint point_;
+  std::vector<int> nodes_;   ///< of the combined mask
+  Eigen::VectorXd density_;  ///< sum over the triangle's free vertices of phi_i(x) rho^i_j, 1/m^2
+};
+
+/// The point of the surface nearest to a place (search over all triangles).
+SurfacePoint nearestSurfacePoint(const SurfaceMesh& mesh, const Eigen::Vector3d& place);
+
+}  // namespace palpate

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "contact/pressure_mask.h"
+#include "greens/greens_functions.h"
+#include "progress.h"
+
+namespace palpate {
+
+/// The compliance of a masked vertex, u_i = B f with B = sum over j of rho_j Xi_ij (eq. 32), and
+/// the stiffness that is served: the inverse of its symmetric part.
+struct VertexStiffness {
+  Eigen::Matrix3d stiffness;  ///< K^E, N/m, symmetric positive definite
+  double asymmetry;           ///< |B - B^T|_F / |B|_F before symmetrising
+};
+
+/// @param mask  of a free vertex.
+/// @throws std::invalid_argument if a column is missing; std::runtime_error if the compliance is
+/// not
+///         positive definite, as on a surface that is inside out or too coarse.
+VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
+                                      const VertexMask& mask);
+
+/// Stiffnesses of all vertices, and by interpolation of every point of the surface ([JP01] sections
+/// 6.2-6.4).
+class SurfaceStiffness {
+ public:
+  /// @param rigidStiffness  k_Rigid of eq. 33 (N/m), the stiffness of fixed vertices and the most
+  /// that
+  ///                        the haptic stiffness shows; 0 for the stiffest elastic vertex.
+  /// @throws as maskedVertexStiffness; std::invalid_argument for a negative rigid stiffness;
+  /// Aborted.
+  SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
+                   std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape, double radius,
+                   double rigidStiffness = 0, const ProgressCallback& progress = {});
+
+  const GreensFunctions& greens() const { return *greens_; }
+  const std::shared_ptr<const GreensFunctions>& sharedGreens() const { return greens_; }
+  const SurfaceMesh& mesh() const { return *mesh_; }
+
+  /// K_i: K^E where the vertex is free, k_Rigid times identity where it is fixed (eq. 32-33). N/m.
+  const Eigen::Matrix3d& elastic(int vertex) const { return elastic_[vertex]; }
+  /// eta_i = min(1, |K^R| / |K^E_i|), 1 where fixed (section 6.4).
+  double hapticRatio(int vertex) const { return hapticRatio_[vertex]; }
+  /// K^H_i = eta_i K^E_i.
+  Eigen::Matrix3d haptic(int vertex) const { return hapticRatio_[vertex] * elastic_[vertex]; }
+  /// The mask of a vertex; empty where it is fixed.
+  const VertexMask& mask(int vertex) const { return masks_[vertex]; }
+  /// Asymmetry of a vertex's compliance before symmetrising; 0 where fixed.
+  double asymmetry(int vertex) const { return asymmetry_[vertex]; }
+  double rigidStiffness() const { return rigidStiffness_; }
+
+  /// K(x) of eq. 34 at a point of a triangle.
+  /// @param barycentric  of the point, sum 1.
+  Eigen::Matrix3d elasticAt(int triangle, const Eigen::Vector3d& barycentric) const noexcept;
+  /// K^H(x), with |K^H(x)| <= |K^R|.
+  Eigen::Matrix3d hapticAt(int triangle, const Eigen::Vector3d& barycentric) const noexcept;
+
+ private:
+  std::shared_ptr<const GreensFunctions> greens_;
+  std::shared_ptr<const SurfaceMesh> mesh_;
+  double rigidStiffness_;
+  std::vector<Eigen::Matrix3d> elastic_;
+  std::vector<double> hapticRatio_, asymmetry_;
+  std::vector<VertexMask> masks_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "greens/dense_greens_functions.h"
+
+#include "greens/weighted_columns.h"
+
+namespace palpate {
+
+template <class Scalar>
+DenseGreensFunctions<Scalar>::DenseGreensFunctions(GreensFunctionsInfo info,
+                                                   AlignedBuffer<Scalar> matrix)
+    : GreensFunctions(std::move(info)) {
+  auto owner = std::make_shared<AlignedBuffer<Scalar>>(std::move(matrix));
+  matrix_ = owner->data();
+  keeper_ = owner;
+}
+
+template <class Scalar>
+DenseGreensFunctions<Scalar>::DenseGreensFunctions(GreensFunctionsInfo info, const Scalar* matrix,
+                                                   std::shared_ptr<const void> keeper)
+    : GreensFunctions(std::move(info)), matrix_(matrix), keeper_(std::move(keeper)) {}
+
+template <class Scalar>
+void DenseGreensFunctions<Scalar>::gather(NodeList rows, NodeList columns, double* out) const {
+  for (int columnNode : columns)
+    for (int j = 0; j < 3; ++j) {
+      const Scalar* source = column(columnNode, j);
+      for (int row : rows) {
+        const double scale = blockScale(row, columnNode);
+        for (int i = 0; i < 3; ++i) *out++ = scale * source[3 * row + i];
+      }
+    }
+}
+
+template <class Scalar>
+void DenseGreensFunctions<Scalar>::accumulate(NodeList columns, Values weights,
+                                              Eigen::Ref<Eigen::VectorXd> out) const {
+  // Fixed rows carry the factor s and free ones none; dividing the sum so far first keeps one pass.
+  const bool scaled = stiffnessScale_ != 1;
+  const auto scaleFixedRows = [&](double factor) {
+    for (int node = 0; node < nodeCount(); ++node)
+      if (isFixed(node)) out.template segment<3>(3 * node) *= factor;
+  };
+  if (scaled) scaleFixedRows(1 / stiffnessScale_);
+  const Scalar* group[kColumnGroup];
+  double groupWeights[kColumnGroup];
+  int size = 0;
+  for (Eigen::Index c = 0; c < columns.size(); ++c)
+    for (int j = 0; j < 3; ++j) {
+      group[size] = column(columns[c], j);
+      groupWeights[size++] = weights[3 * c + j] * (isFixed(columns[c]) ? 1 : 1 / stiffnessScale_);
+      if (size < kColumnGroup && (c + 1 < columns.size() || j < 2)) continue;
+      addWeightedColumns(group, groupWeights, size, 3 * nodeCount(), out.data());
+      size = 0;
+    }
+  if (scaled) scaleFixedRows(stiffnessScale_);
+}
+
+template <class Scalar>
+void DenseGreensFunctions<Scalar>::accumulate(NodeList columns, Values weights, NodeList rows,
+                                              Eigen::Ref<Eigen::VectorXd> out) const {
+  for (Eigen::Index c = 0; c < columns.size(); ++c)
+    for (int j = 0; j < 3; ++j) {
+      const Scalar* source = column(columns[c], j);
+      for (Eigen::Index r = 0; r < rows.size(); ++r) {
+        const double weight = weights[3 * c + j] * blockScale(rows[r], columns[c]);
+        for (int i = 0; i < 3; ++i) out[3 * r + i] += weight * source[3 * rows[r] + i];
+      }
+    }
+}
+
+template <class Scalar>
+std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsModulus(
+    double youngsModulus) const {
+  GreensFunctionsInfo scaledInfo = info();
+  scaledInfo.material = Material(youngsModulus, info().material.poissonRatio());
+  auto scaled =
+      std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_, keeper_);
+  scaled->stiffnessScale_ = stiffnessScale_ * youngsModulus / info().material.youngsModulus();
+  return scaled;
+}
+
+template class DenseGreensFunctions<double>;
+template class DenseGreensFunctions<float>;
+
+}  // namespace palpate

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mesh/loop_subdivision.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "mesh/mesh_defects.h"
+
+namespace palpate {
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
+
+Mesh toOpenMesh(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+  Mesh mesh;
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    mesh.add_vertex({points(0, v), points(1, v), points(2, v)});
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
+    mesh.add_face(mesh.vertex_handle(triangles(0, f)), mesh.vertex_handle(triangles(1, f)),
+                  mesh.vertex_handle(triangles(2, f)));
+  return mesh;
+}
+
+/// A new vertex has just two old neighbours: the ends of its edge.
+Eigen::Matrix2Xi findParents(const Mesh& mesh, int oldCount) {
+  Eigen::Matrix2Xi parents(2, mesh.n_vertices());
+  for (const auto v : mesh.vertices()) {
+    parents.col(v.idx()).setConstant(v.idx());
+    if (v.idx() < oldCount) continue;
+    int found = 0;
+    for (const auto neighbour : mesh.vv_range(v))
+      if (neighbour.idx() < oldCount) parents(found++, v.idx()) = neighbour.idx();
+    if (parents(0, v.idx()) > parents(1, v.idx()))
+      std::swap(parents(0, v.idx()), parents(1, v.idx()));
+  }
+  return parents;
+}
+
+/// The vertices that a fine triangle descends from are those of its coarse triangle.
+std::vector<int> findParentTriangles(const LoopLevel& level, const Eigen::Matrix3Xi& coarse) {
+  std::map<std::array<int, 3>, int> triangleOf;
+  for (Eigen::Index f = 0; f < coarse.cols(); ++f) {
+    std::array<int, 3> key{coarse(0, f), coarse(1, f), coarse(2, f)};
+    std::sort(key.begin(), key.end());
+    triangleOf[key] = static_cast<int>(f);
+  }
+  std::vector<int> parent;
+  for (Eigen::Index f = 0; f < level.triangles.cols(); ++f) {
+    std::vector<int> ancestors;
+    for (int k = 0; k < 3; ++k)
+      for (int end : level.parents.col(level.triangles(k, f))) ancestors.push_back(end);
+    std::sort(ancestors.begin(), ancestors.end());
+    ancestors.erase(std::unique(ancestors.begin(), ancestors.end()), ancestors.end());
+    parent.push_back(triangleOf.at({ancestors[0], ancestors[1], ancestors[2]}));
+  }
+  return parent;
+}
+
+}  // namespace
+
+LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+  requireNoDefect(findMeshDefects(points, triangles, 1));
+  Mesh mesh = toOpenMesh(points, triangles);
+  OpenMesh::Subdivider::Uniform::LoopT<Mesh, double> loop;
+  loop.attach(mesh);
+  loop(1);
+  loop.detach();
+
+  LoopLevel level;
+  level.points.resize(3, mesh.n_vertices());
+  for (const auto v : mesh.vertices())
+    level.points.col(v.idx()) = Eigen::Map<const Eigen::Vector3d>(mesh.point(v).data());
+  level.triangles.resize(3, mesh.n_faces());
+  for (const auto f : mesh.faces()) {
+    int k = 0;
+    for (const auto v : mesh.fv_range(f)) level.triangles(k++, f.idx()) = v.idx();
+  }
+  level.parents = findParents(mesh, static_cast<int>(points.cols()));
+  level.parentTriangle = findParentTriangles(level, triangles);
+  return level;
+}
+
+}  // namespace palpate

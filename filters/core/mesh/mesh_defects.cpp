@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mesh/mesh_defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include "mesh/surface_mesh.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kLargestCoordinate = 1e100;
+constexpr double kDuplicateDistance = 1e-9;  // of the bounding box's diagonal
+constexpr double kDegenerateHeight = 1e-10;  // of the triangle's longest edge
+
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+class DefectList {
+ public:
+  explicit DefectList(std::size_t largestCount) : largestCount_(largestCount) {}
+  void add(MeshDefectKind kind, int index, std::string text) {
+    if (defects_.size() < largestCount_) defects_.push_back({kind, index, std::move(text)});
+  }
+  bool empty() const { return defects_.empty(); }
+  std::vector<MeshDefect> take() { return std::move(defects_); }
+
+ private:
+  std::size_t largestCount_;
+  std::vector<MeshDefect> defects_;
+};
+
+void findBadNumbers(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
+                    DefectList& defects) {
+  for (int v = 0; v < points.cols(); ++v) {
+    const Eigen::Vector3d x = points.col(v);
+    if (!x.allFinite() || x.cwiseAbs().maxCoeff() > kLargestCoordinate)
+      defects.add(MeshDefectKind::NonFiniteCoordinate, v,
+                  sentence("vertex ", v, " has a coordinate that is not a usable number (", x.x(),
+                           ", ", x.y(), ", ", x.z(), ")"));
+  }
+  for (int f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (triangles(k, f) < 0 || triangles(k, f) >= points.cols())
+        defects.add(MeshDefectKind::IndexOutOfRange, f,
+                    sentence("triangle ", f, " refers to vertex ", triangles(k, f),
+                             ", but there are only ", points.cols(), " vertices"));
+}
+
+void findDegenerateTriangles(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
+                             DefectList& defects) {
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3i t = triangles.col(f);
+    const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    const double height = longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
+    if (!(height > kDegenerateHeight * longest))
+      defects.add(MeshDefectKind::DegenerateTriangle, f,
+                  sentence("triangle ", f, " (", t[0], ", ", t[1], ", ", t[2],
+                           ") is degenerate: height ", height, " over longest edge ", longest));
+  }
+}
+
+void findUnusedAndDuplicateVertices(const Eigen::Matrix3Xd& points,
+                                    const Eigen::Matrix3Xi& triangles, DefectList& defects) {
+  std::vector<bool> used(points.cols(), false);
+  for (int f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k) used[triangles(k, f)] = true;
+  for (int v = 0; v < points.cols(); ++v)
+    if (!used[v])
+      defects.add(MeshDefectKind::UnusedVertex, v, sentence("vertex ", v, " is in no triangle"));
+
+  const double diagonal = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+  const std::vector<int> twin = nearestDuplicates(points, kDuplicateDistance * diagonal);
+  for (int v = 0; v < points.cols(); ++v)
+    if (twin[v] != v)
+      defects.add(MeshDefectKind::DuplicateVertex, v,
+                  sentence("vertex ", v, " lies on vertex ", twin[v], " (distance ",
+                           (points.col(v) - points.col(twin[v])).norm(), ")"));
+}
+
+void findDuplicateTriangles(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
+  std::vector<std::array<int, 4>> keys(triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    keys[f] = {triangles(0, f), triangles(1, f), triangles(2, f), f};
+    std::sort(keys[f].begin(), keys[f].begin() + 3);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin()))
+      defects.add(MeshDefectKind::DuplicateTriangle, keys[i][3],
+                  sentence("triangle ", keys[i][3], " repeats triangle ", keys[i - 1][3]));
+}
+
+/// A side of a triangle: the lower vertex, the higher vertex, the triangle, and its direction.
+struct Side {
+  int low, high, triangle;
+  bool upwards;
+  bool sameEdge(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+std::vector<Side> sortedSides(const Eigen::Matrix3Xi& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(k, f), b = triangles((k + 1) % 3, f);
+      sides.push_back({std::min(a, b), std::max(a, b), f, a < b});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return sides;
+}
+
+void findEdgeDefects(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
+  const std::vector<Side> sides = sortedSides(triangles);
+  for (std::size_t i = 0, end; i < sides.size(); i = end) {
+    for (end = i + 1; end < sides.size() && sides[end].sameEdge(sides[i]);) ++end;
+    const std::string edge = sentence("edge (", sides[i].low, ", ", sides[i].high, ")");
+    const int f = sides[i].triangle;
+    if (end - i > 2)
+      defects.add(MeshDefectKind::NonManifoldEdge, f,
+                  sentence(edge, " belongs to ", end - i, " triangles (the first is ", f,
+                           "): the surface is not a manifold there"));
+    else if (end - i == 1)
+      defects.add(MeshDefectKind::OpenBoundary, f,
+                  sentence(edge, " belongs to triangle ", f,
+                           " alone: the surface is open there, but it must be closed"));
+    else if (sides[i].upwards == sides[i + 1].upwards)
+      defects.add(MeshDefectKind::InconsistentOrientation, sides[i + 1].triangle,
+                  sentence("triangles ", f, " and ", sides[i + 1].triangle,
+                           " run in opposite senses at ", edge, ": one of them is flipped"));
+  }
+}
+
+/// The triangles around each vertex of a closed edge-manifold must form one fan.
+void findVertexDefects(int vertexCount, const Eigen::Matrix3Xi& triangles, DefectList& defects) {
+  std::vector<int> next(3 * triangles.cols());  // successor of a corner around its vertex
+  std::vector<std::array<int, 3>> spokes;       // (vertex, spoke's other end, corner)
+  spokes.reserve(next.size());
+  for (int f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k)
+      spokes.push_back({triangles(k, f), triangles((k + 1) % 3, f), 3 * f + k});
+  std::sort(spokes.begin(), spokes.end());
+  std::vector<int> cornerCount(vertexCount, 0), someCorner(vertexCount, -1);
+  for (int f = 0; f < triangles.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const std::array<int, 3> wanted{triangles(k, f), triangles((k + 2) % 3, f), -1};
+      next[3 * f + k] = (*std::lower_bound(spokes.begin(), spokes.end(), wanted))[2];
+      ++cornerCount[triangles(k, f)];
+      someCorner[triangles(k, f)] = 3 * f + k;
+    }
+  for (int v = 0; v < vertexCount; ++v) {
+    int length = 1;
+    for (int c = next[someCorner[v]]; c != someCorner[v] && length <= cornerCount[v]; c = next[c])
+      ++length;
+    if (length != cornerCount[v])
+      defects.add(MeshDefectKind::NonManifoldVertex, v,
+                  sentence("at vertex ", v, " two sheets of the surface touch in a point"));
+  }
+}
+
+}  // namespace
+
+std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distance) {
+  const Eigen::RowVector3d direction(0.5257311121191336, 0.6180339887498949, 0.5851023839);
+  const Eigen::VectorXd key = (direction.normalized() * points).transpose();
+  std::vector<int> order(points.cols()), twin(points.cols());
+  std::iota(order.begin(), order.end(), 0);
+  std::iota(twin.begin(), twin.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size() && key[order[j]] - key[order[i]] <= distance;
+         ++j) {
+      const int low = std::min(order[i], order[j]), high = std::max(order[i], order[j]);
+      if ((points.col(low) - points.col(high)).norm() <= distance)
+        twin[high] = std::min(twin[high], low);
+    }
+  for (std::size_t v = 0; v < twin.size(); ++v) twin[v] = twin[twin[v]];
+  return twin;
+}
+
+std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
+                                        const Eigen::Matrix3Xi& triangles,
+                                        std::size_t largestCount) {
+  DefectList defects(largestCount);
+  if (points.cols() == 0 || triangles.cols() == 0) {
+    defects.add(MeshDefectKind::Empty, -1, "the surface has no triangles");
+    return defects.take();
+  }
+  findBadNumbers(points, triangles, defects);
+  if (!defects.empty()) return defects.take();
+  findDegenerateTriangles(points, triangles, defects);
+  findUnusedAndDuplicateVertices(points, triangles, defects);
+  findDuplicateTriangles(triangles, defects);
+  if (!defects.empty()) return defects.take();
+  findEdgeDefects(triangles, defects);
+  if (!defects.empty()) return defects.take();
+  findVertexDefects(static_cast<int>(points.cols()), triangles, defects);
+  return defects.take();
+}
+
+void requireNoDefect(const std::vector<MeshDefect>& defects) {
+  if (!defects.empty()) throw std::invalid_argument(defects.front().sentence);
+}
+
+}  // namespace palpate

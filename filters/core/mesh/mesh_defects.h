@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace palpate {
+
+class SurfaceMesh;
+
+enum class MeshDefectKind {
+  Empty,
+  NonFiniteCoordinate,
+  IndexOutOfRange,
+  DegenerateTriangle,
+  DuplicateTriangle,
+  UnusedVertex,
+  DuplicateVertex,
+  NonManifoldEdge,
+  OpenBoundary,
+  InconsistentOrientation,
+  NonManifoldVertex,
+  InwardOrientation,
+  SelfIntersection,
+};
+
+/// One thing that keeps a triangle soup from bounding elastic bodies.
+struct MeshDefect {
+  MeshDefectKind kind;
+  int index;             ///< the vertex or triangle at fault, -1 for none
+  std::string sentence;  ///< for the user: names the index and the value
+};
+
+/// Finds what keeps triangles from being a closed, oriented manifold without degenerate triangles.
+/// The check stops after the first kind of defect that later kinds depend on.
+/// @param points         3 by #V.
+/// @param triangles      3 by #F.
+/// @param largestCount   at most so many defects are listed.
+/// Vertices closer than 1e-9 of the bounding box's diagonal are duplicates; a triangle whose height
+/// is below 1e-10 of its longest edge is degenerate.
+std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
+                                        const Eigen::Matrix3Xi& triangles,
+                                        std::size_t largestCount = 16);
+
+/// @throws std::invalid_argument with the first defect's sentence, if there is any.
+void requireNoDefect(const std::vector<MeshDefect>& defects);
+
+/// For every vertex the lowest-numbered vertex within `distance` of it (itself if there is none).
+/// @param points  3 by #V, finite.
+std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distance);
+
+/// Triangles that cross each other or touch beyond a shared vertex or edge (CGAL). Empty when the
+/// library was built without CGAL.
+/// @param largestCount  at most so many pairs are listed.
+std::vector<MeshDefect> findSelfIntersections(const SurfaceMesh& mesh,
+                                              std::size_t largestCount = 16);
+
+}  // namespace palpate

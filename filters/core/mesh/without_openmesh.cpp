@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What remains of this room's OpenMesh source when the library is built without it.
+
+#include <stdexcept>
+
+#include "mesh/loop_subdivision.h"
+
+namespace palpate {
+
+LoopLevel subdivideLoop(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&) {
+  throw std::runtime_error(
+      "refinement needs OpenMesh, which this build of Palpate was made without");
+}
+
+}  // namespace palpate

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "model/elastic_model.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "mesh/wall_thickness.h"
+#include "model/support.h"
+
+namespace palpate {
+
+ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
+                           BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
+                           Domain domain)
+    : mesh_(std::move(mesh)),
+      material_(material),
+      conditions_(std::move(conditions)),
+      smoothPatches_(std::move(smoothPatches)),
+      domain_(domain) {
+  std::ostringstream text;
+  if (conditions_.nodeCount() != mesh_->vertexCount())
+    text << "there are " << conditions_.nodeCount() << " boundary types for "
+         << mesh_->vertexCount() << " vertices";
+  else if (smoothPatches_.size() != mesh_->triangleCount())
+    text << "there are " << smoothPatches_.size() << " smooth patch numbers for "
+         << mesh_->triangleCount() << " triangles";
+  else if (conditions_.freeNodes().empty())
+    text << "no node is free: a model needs a free node that can be touched";
+  if (!text.str().empty()) throw std::invalid_argument(text.str());
+
+  if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
+  for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
+    if (mesh_->isCavity(shell))
+      throw std::invalid_argument(
+          "in an exterior domain no surface may lie inside another: the material is outside all");
+}
+
+std::uint64_t ElasticModel::fingerprint() const {
+  return Fingerprint()
+      .add(*mesh_)
+      .add(conditions_.types().data(), conditions_.types().size())
+      .add(smoothPatches_.data(), sizeof(int) * smoothPatches_.size())
+      .value();
+}
+
+std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
+                                       double& supportWidth) {
+  constexpr double thinFrom = 0.3, veryThinFrom = 1, narrowBelow = 3;
+  std::vector<std::string> warnings;
+  const auto warn = [&](auto&&... parts) {
+    std::ostringstream text;
+    text.precision(3);
+    (text << ... << parts);
+    warnings.push_back(text.str());
+  };
+  const WallRatio wall =
+      model.domain() == Domain::Interior ? largestWallRatio(model.mesh()) : WallRatio{};
+  wallRatio = wall.ratio;
+  if (wallRatio > veryThinFrom)
+    warn("the wall at triangle ", wall.triangle,
+         " is thinner than the edges there (edge over "
+         "thickness ",
+         wallRatio, "): bending is lost there; refine, or use solid or shell elements");
+  else if (wallRatio > thinFrom)
+    warn("the wall at triangle ", wall.triangle, " is thin for the mesh (edge over thickness ",
+         wallRatio, "): bending is too stiff by about ", 100 * wallRatio * wallRatio, " %");
+
+  const double width = supportWidthInEdges(model.mesh(), model.conditions());
+  supportWidth = std::isfinite(width) ? width : -1;
+  if (width < narrowBelow)
+    warn("a support is only ", width,
+         " edges wide: its compliance depends on the mesh; fix an area "
+         "at least ",
+         narrowBelow, " edges wide");
+  return warnings;
+}
+
+}  // namespace palpate

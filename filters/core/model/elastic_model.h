@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Core>
+#include <memory>
+
+#include "mesh/surface_mesh.h"
+#include "model/boundary_conditions.h"
+#include "model/material.h"
+
+namespace palpate {
+
+/// Which side of the surface the material fills.
+enum class Domain {
+  Interior,
+  Exterior,  ///< infinite space around the surface; needs no support, as displacements fade away
+};
+
+/// A reference boundary value problem: surface, material, and what is given where ([JP01] section
+/// 4.1).
+class ElasticModel {
+ public:
+  /// @param smoothPatches  #F numbers of the smooth patches across whose borders traction may jump
+  ///                       (see findSmoothPatches).
+  /// @throws std::invalid_argument if sizes differ, if no node is free, if the support leaves a
+  /// rigid
+  ///         motion of an interior domain's body free, or if an exterior domain has nested shells.
+  ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
+               BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
+               Domain domain = Domain::Interior);
+
+  const SurfaceMesh& mesh() const { return *mesh_; }
+  const Material& material() const { return material_; }
+  const BoundaryConditions& conditions() const { return conditions_; }
+  const Eigen::VectorXi& smoothPatches() const { return smoothPatches_; }
+  Domain domain() const { return domain_; }
+
+  /// Hash of what the Green's functions depend on besides the material: points, triangles, boundary
+  /// types, smooth patches.
+  std::uint64_t fingerprint() const;
+
+ private:
+  std::shared_ptr<const SurfaceMesh> mesh_;
+  Material material_;
+  BoundaryConditions conditions_;
+  Eigen::VectorXi smoothPatches_;
+  Domain domain_;
+};
+
+/// Sentences, each with its measured number, about what makes a model's answers doubtful: walls too
+/// thin for linear triangles and supports too small for the mesh.
+/// @param wallRatio     set to the largest edge length over wall thickness, -1 if not measured.
+/// @param supportWidth  set to the narrowest body's support width in edges, -1 without supports.
+std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
+                                       double& supportWidth);
+
+}  // namespace palpate

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace palpate {
+
+class BoundaryConditions;
+class SurfaceMesh;
+
+/// The rigid motion that a body's scalar displacement constraints resist least.
+struct RigidMotion {
+  double resistance;  ///< smallest singular value of the constraint rows over the motions, scaled
+                      ///< to lengths of the body; below kSmallestResistance the motion is free
+  Eigen::Vector3d translation, rotation;  ///< unit vector of the six, about the constraints' middle
+
+  /// "translation along (x, y, z)" or "rotation about the axis (x, y, z)".
+  std::string describe() const;
+};
+
+constexpr double kSmallestResistance = 1e-6;
+
+/// @param points      3 by #constraints, where displacements are prescribed.
+/// @param directions  3 by #constraints, unit vectors along which they are.
+/// @param bodySize    a length that scales rotations, such as the body's bounding-box diagonal.
+RigidMotion leastResistedMotion(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& directions,
+                                double bodySize);
+
+/// @param nodes  fixed nodes, all three directions of each.
+/// @throws std::invalid_argument naming the body and the motion if the nodes leave a rigid motion
+/// of
+///         any body free.
+void requireSupport(const SurfaceMesh& mesh, const BoundaryConditions& conditions);
+
+/// Width of the widest connected set of fixed nodes, over the mean edge length within it: its
+/// extent along its second principal axis. Supports narrower than about 3 are too small for the
+/// mesh.
+/// @return the smallest over the bodies that have fixed nodes; infinity if none has.
+double supportWidthInEdges(const SurfaceMesh& mesh, const BoundaryConditions& conditions);
+
+}  // namespace palpate

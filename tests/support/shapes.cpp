@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "support/shapes.h"
+
+#include <cmath>
+#include <Eigen/Geometry>
+#include <map>
+#include <random>
+
+#include "mesh/mesh_defects.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Shape fromLists(const std::vector<Eigen::Vector3d>& points,
+                const std::vector<Eigen::Vector3i>& triangles) {
+  Shape shape{Eigen::Matrix3Xd(3, points.size()), Eigen::Matrix3Xi(3, triangles.size())};
+  for (std::size_t v = 0; v < points.size(); ++v) shape.points.col(v) = points[v];
+  for (std::size_t f = 0; f < triangles.size(); ++f) shape.triangles.col(f) = triangles[f];
+  return shape;
+}
+
+}  // namespace
+
+Shape Shape::flipped() const {
+  Shape out = *this;
+  out.triangles.row(1).swap(out.triangles.row(2));
+  return out;
+}
+
+Shape Shape::with(const Shape& other) const {
+  Shape out{Eigen::Matrix3Xd(3, points.cols() + other.points.cols()),
+            Eigen::Matrix3Xi(3, triangles.cols() + other.triangles.cols())};
+  out.points << points, other.points;
+  out.triangles << triangles, (other.triangles.array() + int(points.cols())).matrix();
+  return out;
+}
+
+Shape Shape::welded(double tolerance) const {
+  const std::vector<int> twin = nearestDuplicates(points, tolerance);
+  std::vector<int> number(points.cols(), -1);
+  std::vector<Eigen::Vector3d> kept;
+  for (int v = 0; v < points.cols(); ++v) {
+    if (twin[v] != v) continue;
+    number[v] = static_cast<int>(kept.size());
+    kept.push_back(points.col(v));
+  }
+  std::vector<Eigen::Vector3i> faces;
+  for (int f = 0; f < triangles.cols(); ++f)
+    faces.emplace_back(number[twin[triangles(0, f)]], number[twin[triangles(1, f)]],
+                       number[twin[triangles(2, f)]]);
+  return fromLists(kept, faces);
+}
+
+Shape Shape::mapped(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) const {
+  Shape out = *this;
+  for (int v = 0; v < points.cols(); ++v) out.points.col(v) = map(points.col(v));
+  return out;
+}
+
+Shape icosphere(int divisions) {
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  const double corners[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                 {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                 {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const int faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  // A vertex of the icosahedron turned to the north pole, where masks are looked at.
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
+      Eigen::Vector3d(corners[0][0], corners[0][1], corners[0][2]), Eigen::Vector3d::UnitZ());
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (const auto& face : faces) {
+    Eigen::Matrix3d c;
+    for (int k = 0; k < 3; ++k)
+      c.col(k) =
+          turn * Eigen::Vector3d(corners[face[k]][0], corners[face[k]][1], corners[face[k]][2]);
+    std::map<std::pair<int, int>, int> number;
+    for (int i = 0; i <= divisions; ++i)
+      for (int j = 0; i + j <= divisions; ++j) {
+        number[{i, j}] = static_cast<int>(points.size());
+        points.push_back(
+            ((divisions - i - j) * c.col(0) + i * c.col(1) + j * c.col(2)).normalized());
+      }
+    for (int i = 0; i < divisions; ++i)
+      for (int j = 0; i + j < divisions; ++j) {
+        triangles.emplace_back(number[{i, j}], number[{i + 1, j}], number[{i, j + 1}]);
+        if (i + j + 1 < divisions)
+          triangles.emplace_back(number[{i + 1, j}], number[{i + 1, j + 1}], number[{i, j + 1}]);
+      }
+  }
+  return fromLists(points, triangles).welded(1e-6 / divisions);
+}
+
+Shape jitteredSphere(int divisions, double amount, unsigned seed) {
+  Shape shape = icosphere(divisions);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const double edge = 1.1 / divisions;
+  for (int v = 0; v < shape.points.cols(); ++v) {
+    const Eigen::Vector3d shift(uniform(random), uniform(random), uniform(random));
+    shape.points.col(v) = (shape.points.col(v) + amount * edge * shift).normalized();
+  }
+  return shape;
+}
+
+Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+      const int base = static_cast<int>(points.size());
+      for (int i = 0; i <= divisions[u]; ++i)
+        for (int j = 0; j <= divisions[w]; ++j) {
+          Eigen::Vector3d x;
+          x[axis] = side * size[axis];
+          x[u] = size[u] * i / divisions[u];
+          x[w] = size[w] * j / divisions[w];
+          points.push_back(x);
+        }
+      const auto at = [&](int i, int j) { return base + i * (divisions[w] + 1) + j; };
+      for (int i = 0; i < divisions[u]; ++i)
+        for (int j = 0; j < divisions[w]; ++j) {
+          int a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+          if (side == 0) std::swap(b, d);
+          if ((i + j) % 2) {
+            triangles.emplace_back(a, b, c);
+            triangles.emplace_back(a, c, d);
+          } else {
+            triangles.emplace_back(a, b, d);
+            triangles.emplace_back(b, c, d);
+          }
+        }
+    }
+  return fromLists(points, triangles).welded(1e-9 * size.norm());
+}
+
+Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundMinor) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int i = 0; i < aroundMajor; ++i)
+    for (int j = 0; j < aroundMinor; ++j) {
+      const double a = 2 * kPi * i / aroundMajor, b = 2 * kPi * j / aroundMinor;
+      const double r = majorRadius + minorRadius * std::cos(b);
+      points.emplace_back(r * std::cos(a), r * std::sin(a), minorRadius * std::sin(b));
+    }
+  const auto at = [&](int i, int j) { return (i % aroundMajor) * aroundMinor + j % aroundMinor; };
+  for (int i = 0; i < aroundMajor; ++i)
+    for (int j = 0; j < aroundMinor; ++j) {
+      triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  return fromLists(points, triangles);
+}
+
+Shape gradedSphere(const std::function<double(const Eigen::Vector3d&)>& edgeLength) {
+  const Shape start = icosphere(2);
+  std::vector<Eigen::Vector3d> points;
+  for (int v = 0; v < start.points.cols(); ++v) points.push_back(start.points.col(v));
+  std::vector<Eigen::Vector3i> triangles;
+  for (int f = 0; f < start.triangles.cols(); ++f) triangles.push_back(start.triangles.col(f));
+
+  // Longest-edge bisection (Rivara): an edge is cut when it is its triangle's longest and too long;
+  // the triangle on its other side is cut with it.
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::pair<int, int>, int> middle;
+    const auto key = [](int a, int b) { return std::minmax(a, b); };
+    const auto length = [&](int a, int b) { return (points[a] - points[b]).norm(); };
+    for (const Eigen::Vector3i& t : triangles) {
+      int longest = 0;
+      for (int k = 1; k < 3; ++k)
+        if (length(t[k], t[(k + 1) % 3]) > length(t[longest], t[(longest + 1) % 3]) * (1 + 1e-12))
+          longest = k;
+      const int a = t[longest], b = t[(longest + 1) % 3];
+      if (length(a, b) > edgeLength((points[a] + points[b]).normalized())) middle[key(a, b)] = -1;
+    }
+    // The closure: a triangle with a cut edge has its longest edge cut too.
+    for (bool closed = false; !closed;) {
+      closed = true;
+      for (const Eigen::Vector3i& t : triangles) {
+        int longest = 0;
+        bool cut = false;
+        for (int k = 0; k < 3; ++k) {
+          cut = cut || middle.count(key(t[k], t[(k + 1) % 3]));
+          if (length(t[k], t[(k + 1) % 3]) > length(t[longest], t[(longest + 1) % 3]) * (1 + 1e-12))
+            longest = k;
+        }
+        if (cut && !middle.count(key(t[longest], t[(longest + 1) % 3]))) {
+          middle[key(t[longest], t[(longest + 1) % 3])] = -1;
+          closed = false;
+        }
+      }
+    }
+    for (auto& [edge, vertex] : middle) {
+      vertex = static_cast<int>(points.size());
+      points.push_back((points[edge.first] + points[edge.second]).normalized());
+      changed = true;
+    }
+    std::vector<Eigen::Vector3i> next;
+    const auto cutOf = [&](int a, int b) {
+      const auto found = middle.find(key(a, b));
+      return found == middle.end() ? -1 : found->second;
+    };
+    for (Eigen::Vector3i t : triangles) {
+      int longest = 0;
+      for (int k = 1; k < 3; ++k)
+        if (length(t[k], t[(k + 1) % 3]) > length(t[longest], t[(longest + 1) % 3]) * (1 + 1e-12))
+          longest = k;
+      const int a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3];
+      const int ab = cutOf(a, b), bc = cutOf(b, c), ca = cutOf(c, a);
+      if (ab < 0) {
+        next.push_back(t);
+        continue;
+      }
+      if (bc < 0) {
+        next.emplace_back(ab, b, c);
+      } else {
+        next.emplace_back(ab, b, bc);
+        next.emplace_back(ab, bc, c);
+      }
+      if (ca < 0) {
+        next.emplace_back(a, ab, c);
+      } else {
+        next.emplace_back(ab, c, ca);
+        next.emplace_back(a, ab, ca);
+      }
+    }
+    triangles = std::move(next);
+  }
+  return fromLists(points, triangles);
+}
+
+std::vector<unsigned char> fixedWhere(
+    const Shape& shape, const std::function<bool(const Eigen::Vector3d&)>& predicate) {
+  std::vector<unsigned char> types;
+  for (int v = 0; v < shape.points.cols(); ++v) types.push_back(predicate(shape.points.col(v)));
+  return types;
+}
+
+}  // namespace palpate::test
