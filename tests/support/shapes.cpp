@@ -61,7 +61,7 @@ Shape Shape::mapped(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>
   return out;
 }
 
-Shape icosphere(int divisions) {
+Shape icosphere(int levels) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   const double corners[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
                                  {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
@@ -70,38 +70,39 @@ Shape icosphere(int divisions) {
                             {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                             {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                             {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  // A vertex of the icosahedron turned to the north pole, where masks are looked at.
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-      Eigen::Vector3d(corners[0][0], corners[0][1], corners[0][2]), Eigen::Vector3d::UnitZ());
+  const auto corner = [&](int i) {
+    return Eigen::Vector3d(corners[i][0], corners[i][1], corners[i][2]).normalized();
+  };
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(corner(0), Eigen::Vector3d::UnitZ());
   std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 12; ++i) points.push_back(turn * corner(i));
+  points[0] = Eigen::Vector3d::UnitZ();
   std::vector<Eigen::Vector3i> triangles;
-  for (const auto& face : faces) {
-    Eigen::Matrix3d c;
-    for (int k = 0; k < 3; ++k)
-      c.col(k) =
-          turn * Eigen::Vector3d(corners[face[k]][0], corners[face[k]][1], corners[face[k]][2]);
-    std::map<std::pair<int, int>, int> number;
-    for (int i = 0; i <= divisions; ++i)
-      for (int j = 0; i + j <= divisions; ++j) {
-        number[{i, j}] = static_cast<int>(points.size());
-        points.push_back(
-            ((divisions - i - j) * c.col(0) + i * c.col(1) + j * c.col(2)).normalized());
-      }
-    for (int i = 0; i < divisions; ++i)
-      for (int j = 0; i + j < divisions; ++j) {
-        triangles.emplace_back(number[{i, j}], number[{i + 1, j}], number[{i, j + 1}]);
-        if (i + j + 1 < divisions)
-          triangles.emplace_back(number[{i + 1, j}], number[{i + 1, j + 1}], number[{i, j + 1}]);
-      }
+  for (const auto& face : faces) triangles.emplace_back(face[0], face[1], face[2]);
+
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [entry, isNew] = middles.insert({std::minmax(a, b), int(points.size())});
+      if (isNew) points.push_back((points[a] + points[b]).normalized());
+      return entry->second;
+    };
+    std::vector<Eigen::Vector3i> finer;
+    for (const Eigen::Vector3i& t : triangles) {
+      const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+      finer.insert(finer.end(), {{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}});
+    }
+    triangles = std::move(finer);
   }
-  return fromLists(points, triangles).welded(1e-6 / divisions);
+  return fromLists(points, triangles);
 }
 
-Shape jitteredSphere(int divisions, double amount, unsigned seed) {
-  Shape shape = icosphere(divisions);
+Shape jitteredSphere(int levels, double amount, unsigned seed) {
+  Shape shape = icosphere(levels);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const double edge = 1.1 / divisions;
+  const double edge = 1.1 / (1 << levels);
   for (int v = 0; v < shape.points.cols(); ++v) {
     const Eigen::Vector3d shift(uniform(random), uniform(random), uniform(random));
     shape.points.col(v) = (shape.points.col(v) + amount * edge * shift).normalized();
@@ -160,7 +161,7 @@ Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundM
 }
 
 Shape gradedSphere(const std::function<double(const Eigen::Vector3d&)>& edgeLength) {
-  const Shape start = icosphere(2);
+  const Shape start = icosphere(1);
   std::vector<Eigen::Vector3d> points;
   for (int v = 0; v < start.points.cols(); ++v) points.push_back(start.points.col(v));
   std::vector<Eigen::Vector3i> triangles;
@@ -233,6 +234,65 @@ Shape gradedSphere(const std::function<double(const Eigen::Vector3d&)>& edgeLeng
       }
     }
     triangles = std::move(next);
+  }
+  return fromLists(points, triangles);
+}
+
+Shape ringedSphere(const std::function<double(double)>& edgeLength,
+                   const std::vector<double>& lines) {
+  std::vector<double> stops = lines;
+  stops.insert(stops.begin(), 0);
+  stops.push_back(kPi);
+  std::vector<double> angles;  // of the rings between the poles
+  for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
+    // Steps in proportion to the wanted length, stretched to end on the next stop.
+    std::vector<double> steps{0};
+    while (stops[s] + steps.back() < stops[s + 1])
+      steps.push_back(steps.back() + edgeLength(stops[s] + steps.back()) * std::sqrt(3.0) / 2);
+    const double stretch = (stops[s + 1] - stops[s]) / steps.back();
+    for (std::size_t k = 1; k < steps.size(); ++k) angles.push_back(stops[s] + stretch * steps[k]);
+  }
+  angles.pop_back();
+
+  std::vector<Eigen::Vector3d> points{Eigen::Vector3d::UnitZ()};
+  std::vector<std::vector<int>> rings{{0}};
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const double radius = std::sin(angles[k]);
+    const int count =
+        std::max(5, static_cast<int>(std::lround(2 * kPi * radius / edgeLength(angles[k]))));
+    rings.emplace_back();
+    for (int i = 0; i < count; ++i) {
+      const double turn = 2 * kPi * (i + (k % 2) * 0.5) / count;
+      rings.back().push_back(static_cast<int>(points.size()));
+      points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), std::cos(angles[k]));
+    }
+  }
+  rings.push_back({static_cast<int>(points.size())});
+  points.push_back(-Eigen::Vector3d::UnitZ());
+
+  std::vector<Eigen::Vector3i> triangles;
+  for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+    const std::vector<int>&a = rings[k], &b = rings[k + 1];
+    const auto turnOf = [&](const std::vector<int>& ring, int i, std::size_t which) {
+      return ring.size() == 1 ? 1e9 * (i > 0)
+                              : 2 * kPi * (i + ((which - 1) % 2) * 0.5) / double(ring.size());
+    };
+    // Zip the two rings together, always stepping on the one that is behind.
+    std::size_t i = 0, j = 0;
+    const std::size_t stepsA = a.size() == 1 ? 0 : a.size(), stepsB = b.size() == 1 ? 0 : b.size();
+    while (i < stepsA || j < stepsB) {
+      const bool stepA =
+          j == stepsB ||
+          (i < stepsA && turnOf(a, int(i) + 1, k) + turnOf(a, int(i), k) <
+                             turnOf(b, int(j) + 1, k + 1) + turnOf(b, int(j), k + 1));
+      if (stepA) {
+        triangles.emplace_back(a[i], b[j % b.size()], a[(i + 1) % a.size()]);
+        ++i;
+      } else {
+        triangles.emplace_back(a[i % a.size()], b[j], b[(j + 1) % b.size()]);
+        ++j;
+      }
+    }
   }
   return fromLists(points, triangles);
 }

@@ -30,12 +30,12 @@ struct Shape {
   Shape mapped(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) const;
 };
 
-/// Unit sphere: each triangle of an icosahedron in `divisions`^2, vertices projected outwards:
-/// 10 divisions^2 + 2 vertices (42 for 2, 162 for 4, 642 for 8, 2562 for 16).
-Shape icosphere(int divisions);
+/// Unit sphere: an icosahedron whose edges are halved `levels` times, new vertices projected
+/// outwards: 12, 42, 162, 642, 2562 vertices. One vertex is the north pole.
+Shape icosphere(int levels);
 
 /// The same with every vertex moved along the surface by up to `amount` of an edge, at random.
-Shape jitteredSphere(int divisions, double amount, unsigned seed = 1);
+Shape jitteredSphere(int levels, double amount, unsigned seed = 1);
 
 /// Box [0, size], each face a grid of squares cut in two, along alternating diagonals.
 /// @param divisions  squares along x, y, z.
@@ -47,6 +47,12 @@ Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundM
 /// Unit sphere whose mesh is as fine as a wanted edge length asks near each place (by repeated
 /// bisection of the longest edges, new vertices on the sphere).
 Shape gradedSphere(const std::function<double(const Eigen::Vector3d&)>& edgeLength);
+
+/// Unit sphere of rings of vertices around the z axis with a vertex at each pole.
+/// @param edgeLength  wanted at a polar angle (radians from the north pole).
+/// @param lines       polar angles, ascending, at which a ring must lie.
+Shape ringedSphere(const std::function<double(double)>& edgeLength,
+                   const std::vector<double>& lines);
 
 /// Vertices for which a predicate holds, as boundary types.
 std::vector<unsigned char> fixedWhere(const Shape& shape,

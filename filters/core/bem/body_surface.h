@@ -25,6 +25,11 @@ struct BodySurface {
 
   int vertexCount() const { return static_cast<int>(points.cols()); }
   int triangleCount() const { return static_cast<int>(triangles.cols()); }
+  Eigen::Vector3d centroid(int triangle) const {
+    return (points.col(triangles(0, triangle)) + points.col(triangles(1, triangle)) +
+            points.col(triangles(2, triangle))) /
+           3;
+  }
 
   std::vector<int> vertices;        ///< #v, the model's vertex of each vertex of the body
   double length;                    ///< characteristic length, in the model's unit
@@ -38,45 +43,6 @@ struct BodySurface {
   bool exterior;                    ///< the material is the infinite space around the shells
   double poissonRatio;
   TractionNodes nodes;
-};
-
-/// Where the boundary integral equation is enforced: a point of the surface with the triangles that
-/// contain it.
-struct CollocationPoint {
-  struct Own {
-    int triangle;
-    Eigen::Vector3d barycentric;
-  };
-  Eigen::Vector3d position;
-  std::vector<Own> own;
-  int vertex;                  ///< the vertex it serves
-  Eigen::Vector3d areaVector;  ///< integral of hat times normal over the patches that it stands for
-};
-
-/// A traction vector that the reference problem does not prescribe.
-struct TractionUnknown {
-  int vertex;              ///< a fixed vertex of the body
-  std::vector<int> nodes;  ///< the traction nodes that share the vector
-  double area;             ///< of those nodes
-};
-
-/// The unknowns of the reference problem and the points that determine them.
-///
-/// Free vertices carry an unknown displacement. At a fixed vertex the traction is unknown on every
-/// patch on which the vertex is a corner of a wholly fixed triangle, and zero on the others; a
-/// fixed vertex without such a triangle carries one traction on all its patches. Every vertex gives
-/// one collocation point, but where k >= 2 tractions are unknown there are k points, one inside
-/// each of those patches: the equation at the vertex itself could not tell them apart.
-struct CollocationScheme {
-  explicit CollocationScheme(const BodySurface& body);
-
-  int pointCount() const { return static_cast<int>(points.size()); }
-  /// First block is the vertex itself (displacement, or its first traction unknown), the rest are
-  /// the further traction unknowns.
-  std::vector<TractionUnknown> tractions;
-  std::vector<int> firstTraction;  ///< #v, index of a fixed vertex's first unknown, -1 where free
-  std::vector<int> columnOfTraction;     ///< #tractions, block column of the system
-  std::vector<CollocationPoint> points;  ///< in an order that keeps neighbours together
 };
 
 }  // namespace palpate::bem

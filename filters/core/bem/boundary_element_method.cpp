@@ -52,20 +52,15 @@ template <class Scalar>
 class Precomputation {
  public:
   Precomputation(const ElasticModel& model, const BoundaryElementOptions& options,
-                 GreensFunctionsInfo& info, std::vector<PatchColumn>& patchColumns,
-                 const Progress& progress)
-      : model_(model),
-        options_(options),
-        info_(info),
-        patchColumns_(patchColumns),
-        progress_(progress) {}
+                 GreensFunctionsInfo& info, const Progress& progress)
+      : model_(model), options_(options), info_(info), progress_(progress) {}
 
   AlignedBuffer<Scalar> run() {
     const int bodies = BodySurface::bodyCount(model_);
     if (options_.patchColumns)
       for (int body = 0; body < bodies; ++body) listPatchColumns(BodySurface(model_, body));
     const std::size_t rows = 3 * std::size_t(model_.mesh().vertexCount());
-    const std::size_t columns = 3 * (info_.columnNodes.size() + patchColumns_.size());
+    const std::size_t columns = 3 * (info_.columnNodes.size() + info_.patchColumns.size());
     if (bodies > 1) {
       matrix_ = AlignedBuffer<Scalar>(rows * columns);
       std::memset(matrix_.data(), 0, matrix_.bytes());
@@ -77,12 +72,16 @@ class Precomputation {
   }
 
  private:
+  /// The traction nodes of vertices on sharp edges where the reference problem gives the traction.
   void listPatchColumns(const BodySurface& body) {
-    for (int v = 0; v < body.vertexCount(); ++v) {
-      if (body.fixed[v] || body.nodes.end(v) - body.nodes.first(v) < 2) continue;
+    const CollocationScheme scheme(body, options_.collocation);
+    std::vector<bool> isUnknown(body.nodes.count(), false);
+    for (const bem::TractionUnknown& unknown : scheme.tractions)
+      for (int node : unknown.nodes) isUnknown[node] = true;
+    for (int v = 0; v < body.vertexCount(); ++v)
       for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node)
-        patchColumns_.push_back({body.vertices[v], body.nodes.patch[node]});
-    }
+        if (body.nodes.end(v) - body.nodes.first(v) > 1 && !isUnknown[node])
+          info_.patchColumns.push_back({body.vertices[v], body.nodes.patch[node]});
   }
 
   /// Which columns of the result belong to a body: local vertex or traction node, and the column.
@@ -101,11 +100,11 @@ class Precomputation {
       columns.wanted.vertices.push_back(v);
       columns.resultColumn.push_back(static_cast<int>(c));
     }
-    for (std::size_t c = 0; c < patchColumns_.size(); ++c) {
-      const int v = local[patchColumns_[c].node];
+    for (std::size_t c = 0; c < info_.patchColumns.size(); ++c) {
+      const int v = local[info_.patchColumns[c].node];
       if (v < 0) continue;
       for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node)
-        if (body.nodes.patch[node] == patchColumns_[c].patch)
+        if (body.nodes.patch[node] == info_.patchColumns[c].patch)
           columns.wanted.patchTractions.push_back(node);
       columns.resultColumn.push_back(static_cast<int>(info_.columnNodes.size() + c));
     }
@@ -118,7 +117,7 @@ class Precomputation {
     const int threads = threadCount(options_.threads);
     Diagnostics& diagnostics = info_.diagnostics;
     Stopwatch watch;
-    const CollocationScheme scheme(body);
+    const CollocationScheme scheme(body, options_.collocation);
     bem::ExchangedSystem<Scalar> system =
         bem::assembleSystem<Scalar>(body, scheme, columns.wanted, options_.tolerance, threads,
                                     progress.part(0, kAssembleShare));
@@ -163,8 +162,9 @@ class Precomputation {
     for (int node = 0; node < body.nodes.count(); ++node)
       area[body.nodes.vertex[node]] += body.nodes.area[node];
     for (std::size_t t = 0; t < scheme.tractions.size(); ++t) {
-      const int v = scheme.tractions[t].vertex, block = scheme.columnOfTraction[t];
-      const Scalar share = static_cast<Scalar>(scheme.tractions[t].area / area[v]);
+      const int v = scheme.tractions[t].vertex, block = scheme.tractions[t].column;
+      const bem::TractionUnknown& unknown = scheme.tractions[t];
+      const auto share = static_cast<Scalar>(unknown.scale * unknown.area / area[v]);
       if (block == v)
         x.template middleRows<3>(3 * v) *= share;
       else
@@ -210,7 +210,6 @@ class Precomputation {
   const ElasticModel& model_;
   const BoundaryElementOptions& options_;
   GreensFunctionsInfo& info_;
-  std::vector<PatchColumn>& patchColumns_;
   Progress progress_;
   AlignedBuffer<Scalar> matrix_;
 };
@@ -231,7 +230,8 @@ std::vector<int> checkedColumns(const ElasticModel& model, const std::vector<int
 std::string describeSource(const ElasticModel& model, const BoundaryElementOptions& options) {
   static const char* const precisions[] = {"double", "mixed", "float"};
   std::ostringstream text;
-  text << "boundary elements (collocation, linear triangles), "
+  text << "boundary elements (linear triangles, "
+       << (options.collocation == Collocation::Vertex ? "vertex" : "averaged") << " collocation), "
        << (model.domain() == Domain::Exterior ? "exterior" : "interior") << " domain, "
        << precisions[static_cast<int>(options.precision)] << " precision, integration tolerance "
        << options.tolerance << ", " << (options.reciprocal ? "reciprocal" : "raw");
@@ -250,15 +250,23 @@ void requireDeterminedPressure(const ElasticModel& model, const std::vector<int>
           " is incompressible and fixed all over: its pressure is undetermined");
 }
 
+/// Moves the patch columns, which stand last, to a matrix of their own; makes the rest reciprocal.
 template <class Scalar>
-void finish(AlignedBuffer<Scalar>& matrix, const ElasticModel& model,
-            const BoundaryElementOptions& options, GreensFunctionsInfo& info) {
+void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
+            const ElasticModel& model, const BoundaryElementOptions& options,
+            GreensFunctionsInfo& info) {
   Stopwatch watch;
+  const std::size_t block = 9 * std::size_t(model.mesh().vertexCount());
+  if (!info.patchColumns.empty()) {
+    patchMatrix = AlignedBuffer<Scalar>(block * info.patchColumns.size());
+    std::copy_n(matrix.data() + block * info.columnNodes.size(), patchMatrix.size(),
+                patchMatrix.data());
+  }
   info.diagnostics.reciprocityDefect = makeReciprocal(
       matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal);
   info.reciprocal = options.reciprocal;
   if (model.domain() == Domain::Interior) {
-    const DenseGreensFunctions<Scalar> view(info, matrix.data(), nullptr);
+    const DenseGreensFunctions<Scalar> view(info, matrix.data(), patchMatrix.data(), nullptr);
     info.diagnostics.rockingCompliance = rockingCompliance(view, model.mesh());
   }
   addSeconds(info.diagnostics, "check", watch.seconds());
@@ -268,8 +276,10 @@ void finish(AlignedBuffer<Scalar>& matrix, const ElasticModel& model,
 
 std::shared_ptr<const GreensFunctions> BoundaryElementResult::take() {
   if (floatMatrix.size() > 0)
-    return std::make_shared<DenseGreensFunctions<float>>(std::move(info), std::move(floatMatrix));
-  return std::make_shared<DenseGreensFunctions<double>>(std::move(info), std::move(matrix));
+    return std::make_shared<DenseGreensFunctions<float>>(std::move(info), std::move(floatMatrix),
+                                                         std::move(floatPatchMatrix));
+  return std::make_shared<DenseGreensFunctions<double>>(std::move(info), std::move(matrix),
+                                                        std::move(patchMatrix));
 }
 
 BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& model,
@@ -294,12 +304,11 @@ BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& 
 
   const Progress whole(progress);
   if (options.precision == Precision::Float) {
-    result.floatMatrix =
-        Precomputation<float>(model, options, info, result.patchColumns, whole).run();
-    finish(result.floatMatrix, model, options, info);
+    result.floatMatrix = Precomputation<float>(model, options, info, whole).run();
+    finish(result.floatMatrix, result.floatPatchMatrix, model, options, info);
   } else {
-    result.matrix = Precomputation<double>(model, options, info, result.patchColumns, whole).run();
-    finish(result.matrix, model, options, info);
+    result.matrix = Precomputation<double>(model, options, info, whole).run();
+    finish(result.matrix, result.patchMatrix, model, options, info);
   }
   whole.report(1, "done");
   return result;

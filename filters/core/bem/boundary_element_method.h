@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bem/collocation.h"
 #include "greens/dense_greens_functions.h"
 #include "model/elastic_model.h"
 #include "progress.h"
@@ -22,31 +23,26 @@ enum class Precision {
 
 struct BoundaryElementOptions {
   Precision precision = Precision::Double;
+  Collocation collocation = Collocation::Averaged;
   /// Relative tolerance of each integral over a triangle. The default costs less than the
   /// discretisation error of any mesh that it is used on.
   double tolerance = 1e-6;
   /// Nodes whose Green's functions are computed; empty for all free nodes ([JP01] section 3.6).
   std::vector<int> columns;
-  /// Also compute, at free vertices on sharp edges, the response to a traction on one patch alone.
+  /// Also compute, at vertices on sharp edges, the response to a traction on one patch alone.
   bool patchColumns = false;
   /// Symmetrise the force compliance between free nodes (exact Green's functions are reciprocal).
   bool reciprocal = true;
   int threads = 0;  ///< 0 for all cores
 };
 
-/// Response to a traction on one smooth patch of a vertex alone.
-struct PatchColumn {
-  int node, patch;
-};
-
-/// Green's functions of a boundary element model. Exactly one of the two matrices is filled.
+/// Green's functions of a boundary element model, in double or, for Precision::Float, in float.
 struct BoundaryElementResult {
   GreensFunctionsInfo info;
-  AlignedBuffer<double> matrix;           ///< 3 #V by 3 (#columns + #patch columns)
-  AlignedBuffer<float> floatMatrix;       ///< the same in float, for Precision::Float
-  std::vector<PatchColumn> patchColumns;  ///< stored behind the nodes' columns
+  AlignedBuffer<double> matrix, patchMatrix;  ///< 3 #V by 3 #columns, by 3 #patch columns
+  AlignedBuffer<float> floatMatrix, floatPatchMatrix;
 
-  /// As the interface that consumers use (the patch columns stay out of it). Leaves this empty.
+  /// As the interface that consumers use. Leaves this empty.
   std::shared_ptr<const GreensFunctions> take();
 };
 

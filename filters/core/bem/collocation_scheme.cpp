@@ -1,18 +1,16 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "bem/collocation_scheme.h"
+
 #include <algorithm>
+#include <cmath>
 #include <Eigen/Geometry>
 
-#include "bem/body_surface.h"
 #include "bem/spatial_order.h"
 
 namespace palpate::bem {
 namespace {
-
-/// Barycentric weight of the two far corners at a collocation point inside a triangle: near enough
-/// to the vertex to serve it, far enough that the points of neighbouring vertices differ.
-constexpr double kInteriorWeight = 0.2;
 
 struct Corner {
   int triangle, corner;
@@ -30,93 +28,124 @@ bool isWhollyFixed(const BodySurface& body, int f) {
          body.fixed[body.triangles(2, f)];
 }
 
-double cornerAngle(const BodySurface& body, const Corner& c) {
-  const Eigen::Vector3d x = body.points.col(body.triangles(c.corner, c.triangle));
-  const Eigen::Vector3d a = body.points.col(body.triangles((c.corner + 1) % 3, c.triangle)) - x;
-  const Eigen::Vector3d b = body.points.col(body.triangles((c.corner + 2) % 3, c.triangle)) - x;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-Eigen::Vector3d areaVector(const BodySurface& body, const std::vector<Corner>& corners,
-                           const std::vector<int>& nodes) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Corner& c : corners)
-    if (std::count(nodes.begin(), nodes.end(), body.nodes.ofCorner(c.corner, c.triangle)))
-      sum += body.areas[c.triangle] / 3 * body.normals.col(c.triangle);
-  return sum;
-}
-
-std::vector<int> allNodes(const BodySurface& body, int v) {
+/// The traction nodes of a fixed vertex that lie on wholly fixed triangles.
+std::vector<int> nodesOfFixedTriangles(const BodySurface& body,
+                                       const std::vector<Corner>& corners) {
   std::vector<int> nodes;
-  for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node) nodes.push_back(node);
+  for (const Corner& c : corners)
+    if (isWhollyFixed(body, c.triangle)) nodes.push_back(body.nodes.ofCorner(c.corner, c.triangle));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-CollocationPoint pointAtVertex(const BodySurface& body, int v, const std::vector<Corner>& corners) {
-  CollocationPoint point{body.points.col(v), {}, v, areaVector(body, corners, allNodes(body, v))};
-  for (const Corner& c : corners)
-    point.own.push_back({c.triangle, Eigen::Vector3d::Unit(c.corner)});
-  return point;
-}
+/// Makes collocation points once each and equations from them.
+class EquationBuilder {
+ public:
+  EquationBuilder(const BodySurface& body, const std::vector<std::vector<Corner>>& corners,
+                  CollocationScheme& scheme)
+      : body_(body),
+        corners_(corners),
+        scheme_(scheme),
+        vertexPoint_(body.vertexCount(), -1),
+        centroidPoint_(body.triangleCount(), -1) {}
 
-/// Inside the wholly fixed triangle of the patch that opens widest at the vertex.
-CollocationPoint pointInPatch(const BodySurface& body, int v, const std::vector<Corner>& corners,
-                              int node) {
-  const Corner* best = nullptr;
-  for (const Corner& c : corners)
-    if (body.nodes.ofCorner(c.corner, c.triangle) == node && isWhollyFixed(body, c.triangle) &&
-        (!best || cornerAngle(body, c) > cornerAngle(body, *best)))
-      best = &c;
-  Eigen::Vector3d barycentric = Eigen::Vector3d::Constant(kInteriorWeight);
-  barycentric[best->corner] = 1 - 2 * kInteriorWeight;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k)
-    position += barycentric[k] * body.points.col(body.triangles(k, best->triangle));
-  return {position, {{best->triangle, barycentric}}, v, areaVector(body, corners, {node})};
-}
+  /// The equation at the vertex itself.
+  void addAtVertex(int v) {
+    CollocationEquation equation = standingFor(v, corners_[v]);
+    equation.terms = {{pointAtVertex(v), 1}};
+    scheme_.equations.push_back(std::move(equation));
+  }
+
+  /// Its mean under the vertex's hat over some of the triangles around it.
+  void addAverage(int v, const std::vector<Corner>& over) {
+    CollocationEquation equation = standingFor(v, over);
+    equation.terms = {{pointAtVertex(v), 0.25}};
+    for (const Corner& c : over)
+      equation.terms.push_back(
+          {pointAtCentroid(c.triangle), 0.75 * body_.areas[c.triangle] / (3 * equation.area)});
+    scheme_.equations.push_back(std::move(equation));
+  }
+
+ private:
+  CollocationEquation standingFor(int v, const std::vector<Corner>& corners) const {
+    CollocationEquation equation{{}, v, 0, Eigen::Vector3d::Zero()};
+    for (const Corner& c : corners) {
+      equation.area += body_.areas[c.triangle] / 3;
+      equation.areaVector += body_.areas[c.triangle] / 3 * body_.normals.col(c.triangle);
+    }
+    return equation;
+  }
+
+  int pointAtVertex(int v) {
+    if (vertexPoint_[v] < 0) {
+      vertexPoint_[v] = static_cast<int>(scheme_.points.size());
+      scheme_.points.push_back({body_.points.col(v), {}});
+      for (const Corner& c : corners_[v])
+        scheme_.points.back().own.push_back({c.triangle, Eigen::Vector3d::Unit(c.corner)});
+    }
+    return vertexPoint_[v];
+  }
+
+  int pointAtCentroid(int f) {
+    if (centroidPoint_[f] < 0) {
+      centroidPoint_[f] = static_cast<int>(scheme_.points.size());
+      scheme_.points.push_back({body_.centroid(f), {{f, Eigen::Vector3d::Constant(1.0 / 3)}}});
+    }
+    return centroidPoint_[f];
+  }
+
+  const BodySurface& body_;
+  const std::vector<std::vector<Corner>>& corners_;
+  CollocationScheme& scheme_;
+  std::vector<int> vertexPoint_, centroidPoint_;
+};
 
 }  // namespace
 
-CollocationScheme::CollocationScheme(const BodySurface& body)
-    : firstTraction(body.vertexCount(), -1) {
+CollocationScheme::CollocationScheme(const BodySurface& body, Collocation kindOfCollocation)
+    : kind(kindOfCollocation) {
   const std::vector<std::vector<Corner>> corners = cornersOfVertices(body);
-  std::vector<CollocationPoint> unordered;
-  int extraColumns = 0;
+  EquationBuilder builder(body, corners, *this);
+  int nextColumn = body.vertexCount();
   for (int v = 0; v < body.vertexCount(); ++v) {
-    std::vector<int> unknownNodes;
-    if (body.fixed[v])
-      for (const Corner& c : corners[v])
-        if (isWhollyFixed(body, c.triangle))
-          unknownNodes.push_back(body.nodes.ofCorner(c.corner, c.triangle));
-    std::sort(unknownNodes.begin(), unknownNodes.end());
-    unknownNodes.erase(std::unique(unknownNodes.begin(), unknownNodes.end()), unknownNodes.end());
-
+    std::vector<int> unknown;
     if (body.fixed[v]) {
-      firstTraction[v] = static_cast<int>(tractions.size());
-      if (unknownNodes.empty()) tractions.push_back({v, allNodes(body, v), 0});
-      for (int node : unknownNodes) tractions.push_back({v, {node}, 0});
-      columnOfTraction.push_back(v);
-      while (columnOfTraction.size() < tractions.size())
-        columnOfTraction.push_back(body.vertexCount() + extraColumns++);
+      unknown = nodesOfFixedTriangles(body, corners[v]);
+      std::vector<int> all;
+      for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node) all.push_back(node);
+      if (unknown.empty()) tractions.push_back({v, all, 0, v, 1});
+      for (std::size_t i = 0; i < unknown.size(); ++i)
+        tractions.push_back({v, {unknown[i]}, 0, i == 0 ? v : nextColumn++, 1});
     }
-    if (unknownNodes.size() < 2) {
-      unordered.push_back(pointAtVertex(body, v, corners[v]));
-    } else {
-      Eigen::Vector3d rest = areaVector(body, corners[v], allNodes(body, v));
-      const std::size_t firstPoint = unordered.size();
-      for (int node : unknownNodes) {
-        unordered.push_back(pointInPatch(body, v, corners[v], node));
-        rest -= unordered.back().areaVector;
+    if (unknown.size() < 2) {
+      if (kind == Collocation::Vertex)
+        builder.addAtVertex(v);
+      else
+        builder.addAverage(v, corners[v]);
+      continue;
+    }
+    for (int node : unknown) {  // triangles of no unknown patch go with the first
+      std::vector<Corner> over;
+      for (const Corner& c : corners[v]) {
+        const int other = body.nodes.ofCorner(c.corner, c.triangle);
+        const bool isElsewhere = std::count(unknown.begin(), unknown.end(), other) > 0;
+        if (other == node || (node == unknown.front() && !isElsewhere)) over.push_back(c);
       }
-      unordered[firstPoint].areaVector += rest;
+      builder.addAverage(v, over);
     }
   }
-  for (TractionUnknown& unknown : tractions)
-    for (int node : unknown.nodes) unknown.area += body.nodes.area[node];
+  for (TractionUnknown& traction : tractions) {
+    for (int node : traction.nodes) traction.area += body.nodes.area[node];
+    traction.scale = 1 / std::sqrt(traction.area);
+  }
 
-  Eigen::Matrix3Xd positions(3, unordered.size());
-  for (std::size_t i = 0; i < unordered.size(); ++i) positions.col(i) = unordered[i].position;
-  for (int i : spatialOrder(positions)) points.push_back(std::move(unordered[i]));
+  Eigen::Matrix3Xd positions(3, equations.size());
+  for (std::size_t i = 0; i < equations.size(); ++i)
+    positions.col(i) = body.points.col(equations[i].vertex);
+  std::vector<CollocationEquation> ordered;
+  for (int i : spatialOrder(positions)) ordered.push_back(std::move(equations[i]));
+  equations = std::move(ordered);
 }
 
 }  // namespace palpate::bem

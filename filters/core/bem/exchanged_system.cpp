@@ -8,8 +8,10 @@
 #include <Eigen/Geometry>
 #include <memory>
 
+#include "bem/betti_identities.h"
 #include "bem/influence_panels.h"
-#include "bem/volume_identities.h"
+#include "linear_algebra/dense_lu.h"
+#include "linear_algebra/lapack.h"
 #include "linear_algebra/streaming_store.h"
 #include "parallel.h"
 
@@ -22,7 +24,7 @@ struct ColumnBlock {
   int block;               ///< position there
   int vertex;              ///< H of this vertex, or -1
   std::vector<int> nodes;  ///< sum of G over these traction nodes where vertex < 0
-  double sign;
+  double factor;
 };
 
 std::vector<ColumnBlock> columnBlocks(const BodySurface& body, const CollocationScheme& scheme,
@@ -31,7 +33,8 @@ std::vector<ColumnBlock> columnBlocks(const BodySurface& body, const Collocation
   for (int v = 0; v < body.vertexCount(); ++v)
     if (!body.fixed[v]) blocks.push_back({false, v, v, {}, 1});
   for (std::size_t i = 0; i < scheme.tractions.size(); ++i)
-    blocks.push_back({false, scheme.columnOfTraction[i], -1, scheme.tractions[i].nodes, -1});
+    blocks.push_back({false, scheme.tractions[i].column, -1, scheme.tractions[i].nodes,
+                      -scheme.tractions[i].scale});
   int column = 0;
   for (int v : wanted.vertices) {
     std::vector<int> nodes;
@@ -60,36 +63,30 @@ class Assembler {
       : body_(body),
         scheme_(scheme),
         blocks_(columnBlocks(body, scheme, wanted)),
-        panels_(body, scheme.points, tolerance),
-        identities_(volumeIdentities(body, scheme)),
+        panels_(body, scheme, tolerance),
         threads_(threads) {
-    system_.size = 3 * scheme.pointCount();
+    system_.size = 3 * scheme.equationCount();
     system_.stride = (system_.size + kLine<Scalar> - 1) / kLine<Scalar> * kLine<Scalar>;
     system_.columns = 3 * wanted.count();
     system_.matrix = AlignedBuffer<Scalar>(std::size_t(system_.stride) * system_.size);
     system_.right = AlignedBuffer<Scalar>(std::size_t(system_.stride) * system_.columns);
-    weights_ = rowWeights();
   }
 
   ExchangedSystem<Scalar> run(const Progress& progress) {
     std::vector<std::unique_ptr<InfluencePanels::Workspace>> work(threads_);
     std::vector<double> rotation(threads_, 0);
-    std::vector<Eigen::MatrixXd> volumeSums(
-        threads_, Eigen::MatrixXd::Zero(identities_.size(), 3 * blocks_.size()));
     parallelFor(
         panels_.panelCount(), threads_,
         [&](int panel, int thread) {
           if (!work[thread]) work[thread] = std::make_unique<InfluencePanels::Workspace>(panels_);
           panels_.compute(panel, *work[thread]);
-          store(panel, *work[thread], volumeSums[thread]);
+          store(panel, *work[thread]);
           rotation[thread] = std::max(rotation[thread], rotationResidual(panel, *work[thread]));
         },
         [&](int begun) { progress.report(double(begun) / panels_.panelCount(), "assemble"); });
     const double size = body_.points.colwise().norm().maxCoeff();
     system_.rotationDefect = *std::max_element(rotation.begin(), rotation.end()) / size;
-    system_.closedFormShare = panels_.closedFormShare();
-    for (int thread = 1; thread < threads_; ++thread) volumeSums[0] += volumeSums[thread];
-    replaceVolumeEquations(volumeSums[0]);
+    replaceByIdentities();
     return std::move(system_);
   }
 
@@ -102,27 +99,18 @@ class Assembler {
   /// First row of a panel; its rows follow as all x equations, all y, all z.
   static std::size_t firstRow(int panel) { return std::size_t(3 * kLanes) * panel; }
 
-  /// Writes a panel's rows of every column and adds their share of each shell's volume equation.
-  void store(int panel, const InfluencePanels::Workspace& work, Eigen::MatrixXd& volumeSums) const {
+  /// Writes a panel's rows of every column.
+  void store(int panel, const InfluencePanels::Workspace& work) const {
     const int lanes = panels_.laneCount(panel);
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (const ColumnBlock& block : blocks_)
       for (int j = 0; j < 3; ++j) {
         alignas(64) double entries[3 * kLanes];
-        gather(blocks_[b], j, work, entries);
-        if (lanes < kLanes)
-          for (int e = 0; e < 3 * lanes; ++e) entries[e] = entries[e / lanes * kLanes + e % lanes];
-        const int rows = 3 * lanes;
-        for (Eigen::Index s = 0; s < weights_.cols(); ++s) {
-          const double* weight = weights_.data() + s * system_.stride + firstRow(panel);
-          double sum = 0;
-          for (int e = 0; e < rows; ++e) sum += weight[e] * entries[e];
-          volumeSums(s, 3 * b + j) += sum;
-        }
-        Scalar* target = column(blocks_[b], j) + firstRow(panel);
+        gather(block, j, work, entries);
+        Scalar* target = column(block, j) + firstRow(panel);
         if (lanes == kLanes)
-          streamStore(entries, rows, target);
+          streamStore(entries, 3 * kLanes, target);
         else
-          std::copy_n(entries, rows, target);
+          for (int i = 0; i < 3; ++i) std::copy_n(entries + i * kLanes, lanes, target + i * lanes);
       }
     finishStreaming();
   }
@@ -133,16 +121,16 @@ class Assembler {
       const double* source =
           block.vertex >= 0 ? work.h(block.vertex, i, j) : work.g(block.nodes.front(), i, j);
       double* target = entries + i * kLanes;
-      for (int lane = 0; lane < kLanes; ++lane) target[lane] = block.sign * source[lane];
+      for (int lane = 0; lane < kLanes; ++lane) target[lane] = block.factor * source[lane];
       for (std::size_t k = 1; k < block.nodes.size(); ++k) {
         const double* more = work.g(block.nodes[k], i, j);
-        for (int lane = 0; lane < kLanes; ++lane) target[lane] += block.sign * more[lane];
+        for (int lane = 0; lane < kLanes; ++lane) target[lane] += block.factor * more[lane];
       }
     }
   }
 
-  /// Largest component of H (omega x r) over the panel's points and three rotations: zero but for
-  /// the error of integration. An exterior domain leaves the rotation itself.
+  /// Largest component of H (omega x r) over the panel's equations and three rotations: zero but
+  /// for the error of integration. An exterior domain leaves the rotation itself.
   double rotationResidual(int panel, const InfluencePanels::Workspace& work) const {
     double largest = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -156,43 +144,65 @@ class Assembler {
           }
         }
         for (int lane = 0; lane < panels_.laneCount(panel); ++lane) {
-          const Eigen::Vector3d& x = scheme_.points[panel * kLanes + lane].position;
-          const double expected = body_.exterior ? Eigen::Vector3d::Unit(axis).cross(x)[i] : 0;
+          double expected = 0;
+          for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
+            if (body_.exterior)
+              expected += term.weight *
+                          Eigen::Vector3d::Unit(axis).cross(scheme_.points[term.point].position)[i];
           largest = std::max(largest, std::abs(sum[lane] - expected));
         }
       }
     return largest;
   }
 
-  /// The weights of the shells' volume identities over the rows as they are stored.
-  Eigen::MatrixXd rowWeights() const {
-    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(system_.stride, identities_.size());
-    for (std::size_t s = 0; s < identities_.size(); ++s)
-      for (int p = 0; p < scheme_.pointCount(); ++p) {
-        const int panel = p / kLanes, lanes = panels_.laneCount(panel);
+  /// Replaces the combinations of equations along the identities' weights by the identities:
+  /// columns += weights (identity - weights^T columns).
+  void replaceByIdentities() {
+    const std::vector<BettiIdentity> identities = bettiIdentities(body_, scheme_);
+    const int count = static_cast<int>(identities.size());
+    const Matrix weights = rowWeights(identities);
+    Matrix matrixRows(count, system_.size), rightRows(count, system_.columns);
+    for (const ColumnBlock& block : blocks_)
+      for (int s = 0; s < count; ++s)
+        for (int j = 0; j < 3; ++j) {
+          double sum = block.vertex >= 0 ? identities[s].displacement(j, block.vertex) : 0;
+          for (int node : block.nodes) sum += identities[s].traction(j, node);
+          Matrix& rows = block.isRight ? rightRows : matrixRows;
+          rows(s, 3 * block.block + j) = static_cast<Scalar>(block.factor * sum);
+        }
+    replaceColumns(weights, system_.matrix.data(), matrixRows);
+    replaceColumns(weights, system_.right.data(), rightRows);
+  }
+
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// size by #identities, in the order of the rows as stored.
+  Matrix rowWeights(const std::vector<BettiIdentity>& identities) const {
+    Matrix weights(system_.size, identities.size());
+    for (std::size_t s = 0; s < identities.size(); ++s)
+      for (int e = 0; e < scheme_.equationCount(); ++e) {
+        const int panel = e / kLanes, lanes = panels_.laneCount(panel);
         for (int i = 0; i < 3; ++i)
-          weights(firstRow(panel) + i * lanes + p % kLanes, s) = identities_[s].weights(p, i);
+          weights(firstRow(panel) + i * lanes + e % kLanes, s) =
+              static_cast<Scalar>(identities[s].weights(e, i));
       }
     return weights;
   }
 
-  /// Replaces, shell by shell, the equations' combination along the weights by the volume identity.
-  /// @param present  #shells by 3 #blocks, that combination of each column.
-  void replaceVolumeEquations(const Eigen::MatrixXd& present) {
-    using Column = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
-    const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> weights = weights_.cast<Scalar>();
-    parallelFor(static_cast<int>(blocks_.size()), threads_, [&](int b, int) {
-      const ColumnBlock& block = blocks_[b];
-      for (int j = 0; j < 3; ++j) {
-        Column entries(column(block, j), system_.size);
-        for (std::size_t s = 0; s < identities_.size(); ++s) {
-          double wanted = 0;
-          if (block.vertex >= 0) wanted = identities_[s].displacement(j, block.vertex);
-          for (int node : block.nodes) wanted += identities_[s].traction(j, node);
-          entries += Scalar(block.sign * wanted - present(s, 3 * b + j)) *
-                     weights.col(s).head(system_.size);
-        }
-      }
+  /// @param rows  #identities by #columns, overwritten.
+  void replaceColumns(const Matrix& weights, Scalar* columns, Matrix& rows) const {
+    constexpr int chunk = 12;  // columns that stay in cache between the two products
+    const BlasThreads one(1);
+    const int size = system_.size, stride = system_.stride;
+    const int total = static_cast<int>(rows.cols()), count = static_cast<int>(rows.rows());
+    parallelFor((total + chunk - 1) / chunk, threads_, [&](int c, int) {
+      const int first = c * chunk, width = std::min(chunk, total - first);
+      Scalar* target = columns + std::size_t(first) * stride;
+      Scalar* difference = rows.data() + std::size_t(first) * count;
+      lapack::gemm(true, count, width, size, Scalar(-1), weights.data(), size, target, stride,
+                   Scalar(1), difference, count);
+      lapack::gemm(false, size, width, count, Scalar(1), weights.data(), size, difference, count,
+                   Scalar(1), target, stride);
     });
   }
 
@@ -200,8 +210,6 @@ class Assembler {
   const CollocationScheme& scheme_;
   std::vector<ColumnBlock> blocks_;
   InfluencePanels panels_;
-  std::vector<VolumeIdentity> identities_;
-  Eigen::MatrixXd weights_;  ///< stride by #shells
   int threads_;
   ExchangedSystem<Scalar> system_;
 };

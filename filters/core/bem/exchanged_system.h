@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "bem/body_surface.h"
+#include "bem/collocation_scheme.h"
 #include "linear_algebra/aligned_buffer.h"
 #include "progress.h"
 
@@ -20,23 +20,22 @@ struct SystemColumns {
 
 /// The boundary element system of a body, A v = B v_given, with the columns already exchanged
 /// ([JP01] eq. 9-10; B is minus the complementary matrix, of which only the wanted columns exist):
-///   A's column:  H where the vertex is free, -G for a traction unknown;
+///   A's column:  H where the vertex is free, -G times its scale for a traction unknown;
 ///   B's column:  G (summed over the vertex's patches) where it is free, -H where it is fixed.
-/// Columns are blocks of three. Rows are the collocation points' equations, in the order of
-/// assembly, which does not matter to the solution.
+/// Columns are blocks of three. Rows are the equations in the order of assembly, which does not
+/// matter to the solution.
 template <class Scalar>
 struct ExchangedSystem {
-  int size = 0;                  ///< rows and columns of A, 3 * #points
+  int size = 0;                  ///< rows and columns of A, 3 * #equations
   int columns = 0;               ///< columns of B, 3 * wanted
   int stride = 0;                ///< from column to column of either, a whole number of cache lines
   AlignedBuffer<Scalar> matrix;  ///< A, column-major, destroyed by the solver
   AlignedBuffer<Scalar> right;   ///< B, column-major, overwritten with the solution
   double rotationDefect = 0;     ///< largest |H (omega x r)| over the largest |omega x r|
-  double closedFormShare = 0;    ///< of the point-triangle pairs
 };
 
 /// Integrates and fills the system, panel by panel, so that H and G never exist as a whole.
-/// @param tolerance  relative, of each integral.
+/// @param tolerance  of an equation, see choosePanelRules.
 /// @param threads    number of threads.
 template <class Scalar>
 ExchangedSystem<Scalar> assembleSystem(const BodySurface& body, const CollocationScheme& scheme,

@@ -55,16 +55,12 @@ PanelTriangle makePanelTriangle(const BodySurface& body, int f) {
 
 }  // namespace
 
-InfluencePanels::InfluencePanels(const BodySurface& body,
-                                 const std::vector<CollocationPoint>& points, double tolerance)
-    : body_(body), points_(points), positionOfTriangle_(body.triangleCount()) {
-  choosePanelRules(tolerance, rules_);
+InfluencePanels::InfluencePanels(const BodySurface& body, const CollocationScheme& scheme,
+                                 double tolerance)
+    : body_(body), scheme_(scheme), positionOfTriangle_(body.triangleCount()) {
+  choosePanelRules(tolerance, nearRule_, farRule_);
   Eigen::Matrix3Xd centroids(3, body.triangleCount());
-  for (int f = 0; f < body.triangleCount(); ++f)
-    centroids.col(f) =
-        (body.points.col(body.triangles(0, f)) + body.points.col(body.triangles(1, f)) +
-         body.points.col(body.triangles(2, f))) /
-        3;
+  for (int f = 0; f < body.triangleCount(); ++f) centroids.col(f) = body.centroid(f);
   for (int f : spatialOrder(centroids)) {
     positionOfTriangle_[f] = static_cast<int>(triangles_.size());
     triangles_.push_back(makePanelTriangle(body, f));
@@ -74,13 +70,48 @@ InfluencePanels::InfluencePanels(const BodySurface& body,
 InfluencePanels::Workspace::Workspace(const InfluencePanels& panels)
     : h_(std::size_t(9 * kLanes) * panels.body_.vertexCount()),
       g_(std::size_t(6 * kLanes) * panels.body_.nodes.count()),
-      ownIndex_(panels.triangles_.size(), -1) {}
+      pointH_(h_.size()),
+      pointG_(g_.size()),
+      ownIndex_(panels.triangles_.size(), -1) {
+  std::memset(pointH_.data(), 0, pointH_.bytes());
+  std::memset(pointG_.data(), 0, pointG_.bytes());
+}
 
-void InfluencePanels::markOwnTriangles(int panel, Workspace& work) const {
+void InfluencePanels::compute(int panel, Workspace& work) const {
+  // The points of the panel's equations, once each, neighbours together.
+  std::vector<int> points;
+  for (int lane = 0; lane < laneCount(panel); ++lane)
+    for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
+      points.push_back(term.point);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  Eigen::Matrix3Xd positions(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    positions.col(i) = scheme_.points[points[i]].position;
+  const std::vector<int> order = spatialOrder(positions);
+
+  for (std::size_t first = 0; first < order.size(); first += kLanes) {
+    std::vector<int> group;
+    for (std::size_t i = first; i < std::min(first + kLanes, order.size()); ++i)
+      group.push_back(points[order[i]]);
+    integratePoints(group, work, work.pointH_.data(), work.pointG_.data());
+    double weights[kLanes * kLanes] = {};  // [point][equation]
+    for (int lane = 0; lane < laneCount(panel); ++lane)
+      for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
+        for (std::size_t p = 0; p < group.size(); ++p)
+          if (group[p] == term.point) weights[p * kLanes + lane] += term.weight;
+    averagePoints(weights, 9L * body_.vertexCount(), first == 0, work.pointH_.data(),
+                  work.h_.data());
+    averagePoints(weights, 6L * body_.nodes.count(), first == 0, work.pointG_.data(),
+                  work.g_.data());
+  }
+}
+
+void InfluencePanels::markOwnTriangles(const std::vector<int>& points, Workspace& work) const {
   work.own_.clear();
   for (int lane = 0; lane < kLanes; ++lane) {
-    const int p = panel * kLanes + std::min(lane, laneCount(panel) - 1);
-    for (const CollocationPoint::Own& own : points_[p].own) {
+    const int point = points[std::min<std::size_t>(lane, points.size() - 1)];
+    for (const CollocationPoint::Own& own : scheme_.points[point].own) {
       int& index = work.ownIndex_[positionOfTriangle_[own.triangle]];
       if (index < 0) {
         index = static_cast<int>(work.own_.size());
@@ -93,55 +124,54 @@ void InfluencePanels::markOwnTriangles(int panel, Workspace& work) const {
   }
 }
 
-void InfluencePanels::compute(int panel, Workspace& work) const {
-  std::memset(work.h_.data(), 0, work.h_.bytes());
-  std::memset(work.g_.data(), 0, work.g_.bytes());
-  markOwnTriangles(panel, work);
-
+/// Rows of H and G at up to kLanes points, added to zeros; lanes without a point repeat the last
+/// one.
+void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace& work, double* h,
+                                      double* g) const {
+  markOwnTriangles(points, work);
   PanelTask task;
   for (int lane = 0; lane < kLanes; ++lane) {
-    const CollocationPoint& point = points_[panel * kLanes + std::min(lane, laneCount(panel) - 1)];
-    for (int c = 0; c < 3; ++c) task.x[c][lane] = point.position[c];
+    const int point = points[std::min<std::size_t>(lane, points.size() - 1)];
+    for (int c = 0; c < 3; ++c) task.x[c][lane] = scheme_.points[point].position[c];
   }
-  work.closedFormCount_ = 0;
+  long closedFormCount = 0;
   task.triangles = triangles_.data();
   task.triangleCount = static_cast<int>(triangles_.size());
   task.ownIndex = work.ownIndex_.data();
   task.own = work.own_.data();
-  task.rules = rules_;
+  task.nearRule = nearRule_;
+  task.farRule = farRule_;
   task.poissonRatio = body_.poissonRatio;
-  task.h = work.h_.data();
-  task.g = work.g_.data();
-  task.closedFormCount = &work.closedFormCount_;
+  task.h = h;
+  task.g = g;
+  task.closedFormCount = &closedFormCount;
   integratePanel(task);
-  closedFormPairs_ += work.closedFormCount_;
-  allPairs_ += task.triangleCount;
-
-  for (int lane = 0; lane < laneCount(panel); ++lane)
-    for (const CollocationPoint::Own& own : points_[panel * kLanes + lane].own)
+  closedFormCount_ += closedFormCount;
+  pairCount_ += task.triangleCount;
+  for (int point : points)
+    for (const CollocationPoint::Own& own : scheme_.points[point].own)
       work.ownIndex_[positionOfTriangle_[own.triangle]] = -1;
-  closeByTranslation(panel, work);
+  closeByTranslation(points, h);
 }
 
-void InfluencePanels::closeByTranslation(int panel, Workspace& work) const {
-  double sum[9][kLanes] = {};
-  for (int v = 0; v < body_.vertexCount(); ++v)
+/// Adds to the blocks of the points' own vertices what rigid translation asks for.
+void InfluencePanels::closeByTranslation(const std::vector<int>& points, double* h) const {
+  const std::size_t size = std::size_t(9 * kLanes) * body_.vertexCount();
+  double sum[9 * kLanes] = {};
+  for (std::size_t i = 0; i < size; i += 9 * kLanes)
+    for (int e = 0; e < 9 * kLanes; ++e) sum[e] += h[i + e];
+  if (body_.exterior) {  // the normal points the other way: H_exterior = 1 - H_interior
+    for (std::size_t i = 0; i < size; ++i) h[i] = -h[i];
     for (int c = 0; c < 9; ++c)
       for (int lane = 0; lane < kLanes; ++lane)
-        sum[c][lane] += work.h_.data()[(9 * std::size_t(v) + c) * kLanes + lane];
-  if (body_.exterior) {  // the normal points the other way: H_exterior = 1 - H_interior
-    for (std::size_t i = 0; i < work.h_.size(); ++i) work.h_.data()[i] *= -1;
-    for (int c = 0; c < 9; ++c)
-      for (int lane = 0; lane < kLanes; ++lane) sum[c][lane] = -sum[c][lane] - (c % 4 == 0);
+        sum[c * kLanes + lane] = -sum[c * kLanes + lane] - (c % 4 == 0);
   }
-  for (int lane = 0; lane < laneCount(panel); ++lane) {
-    const CollocationPoint& point = points_[panel * kLanes + lane];
-    const CollocationPoint::Own& own = point.own.front();
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
+    const CollocationPoint::Own& own = scheme_.points[points[lane]].own.front();
     for (int k = 0; k < 3; ++k) {
-      const int v = body_.triangles(k, own.triangle);
+      const std::size_t v = body_.triangles(k, own.triangle);
       for (int c = 0; c < 9; ++c)
-        work.h_.data()[(9 * std::size_t(v) + c) * kLanes + lane] -=
-            own.barycentric[k] * sum[c][lane];
+        h[(9 * v + c) * kLanes + lane] -= own.barycentric[k] * sum[c * kLanes + lane];
     }
   }
 }

@@ -3,35 +3,36 @@
 
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <vector>
 
-#include "bem/body_surface.h"
+#include "bem/collocation_scheme.h"
 #include "bem/panel_integration.h"
 #include "linear_algebra/aligned_buffer.h"
 
 namespace palpate::bem {
 
-/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight collocation points at a
-/// time. H is complete: the free term and the strongly singular integrals follow from rigid
-/// translation, H 1 = 0 in an interior and H 1 = 1 in an exterior domain.
+/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight equations at a time. H is
+/// complete: the free term and the strongly singular integrals follow from rigid translation, H 1 =
+/// 0 in an interior and H 1 = 1 in an exterior domain.
 class InfluencePanels {
  public:
-  /// @param tolerance  relative tolerance of each integral, see choosePanelRules.
-  InfluencePanels(const BodySurface& body, const std::vector<CollocationPoint>& points,
-                  double tolerance);
+  /// Keeps references to the body and the scheme.
+  /// @param tolerance  of an equation as a whole, see choosePanelRules.
+  InfluencePanels(const BodySurface& body, const CollocationScheme& scheme, double tolerance);
 
-  int panelCount() const { return (static_cast<int>(points_.size()) + kLanes - 1) / kLanes; }
-  /// Points of a panel: kLanes, fewer in the last one.
+  int panelCount() const { return (scheme_.equationCount() + kLanes - 1) / kLanes; }
+  /// Equations of a panel: kLanes, fewer in the last one.
   int laneCount(int panel) const {
-    return std::min(kLanes, static_cast<int>(points_.size()) - panel * kLanes);
+    return std::min(kLanes, scheme_.equationCount() - panel * kLanes);
   }
 
   /// Memory for one thread, and the result of compute().
   class Workspace {
    public:
     explicit Workspace(const InfluencePanels& panels);
-    /// Entry (i, j) of the 3 by 3 block of H for a vertex: kLanes values, one per point.
+    /// Entry (i, j) of the 3 by 3 block of H for a vertex: kLanes values, one per equation.
     const double* h(int vertex, int i, int j) const {
       return h_.data() + (9 * std::size_t(vertex) + 3 * i + j) * kLanes;
     }
@@ -43,10 +44,10 @@ class InfluencePanels {
 
    private:
     friend class InfluencePanels;
-    AlignedBuffer<double> h_, g_;
+    AlignedBuffer<double> h_, g_;            // of the equations
+    AlignedBuffer<double> pointH_, pointG_;  // at kLanes points
     std::vector<int> ownIndex_;
     std::vector<OwnTriangle> own_;
-    long closedFormCount_ = 0;
   };
 
   /// Fills the workspace with a panel's rows of H and G. Safe from several threads, each with its
@@ -56,21 +57,22 @@ class InfluencePanels {
   /// A triangle of the body as the integration sees it.
   const PanelTriangle& triangle(int f) const { return triangles_[positionOfTriangle_[f]]; }
 
-  /// Share of the panel-triangle pairs so far that needed a closed form.
-  double closedFormShare() const {
-    return double(closedFormPairs_) / std::max(1.0, double(allPairs_));
-  }
+  /// Pairs of a group of kLanes points and a triangle integrated so far, and how many of them in
+  /// closed form.
+  long pairCount() const { return pairCount_; }
+  long closedFormCount() const { return closedFormCount_; }
 
  private:
-  void markOwnTriangles(int panel, Workspace& work) const;
-  void closeByTranslation(int panel, Workspace& work) const;
+  void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
+  void markOwnTriangles(const std::vector<int>& points, Workspace& work) const;
+  void closeByTranslation(const std::vector<int>& points, double* h) const;
 
   const BodySurface& body_;
-  const std::vector<CollocationPoint>& points_;
+  const CollocationScheme& scheme_;
   std::vector<PanelTriangle> triangles_;  // in spatial order
   std::vector<int> positionOfTriangle_;
-  PanelRule rules_[kRuleCount];
-  mutable std::atomic<long> closedFormPairs_{0}, allPairs_{0};
+  PanelRule nearRule_, farRule_;
+  mutable std::atomic<long> closedFormCount_{0}, pairCount_{0};
 };
 
 }  // namespace palpate::bem

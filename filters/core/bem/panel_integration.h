@@ -10,16 +10,15 @@
 
 namespace palpate::bem {
 
-constexpr int kLanes = 8;         ///< collocation points of a panel
-constexpr int kLargestRule = 16;  ///< points of the largest quadrature rule
-constexpr int kRuleCount = 3;     ///< quadrature rules in use, from cheap to dear
+constexpr int kLanes = 8;  ///< collocation points of a panel
 
-/// A symmetric quadrature rule on a triangle, ready for use: weight times hat function.
+/// A quadrature rule on a triangle made of the centroid and two triples (1 - 2 b, b, b), or of one
+/// triple alone.
 struct PanelRule {
-  int pointCount;
-  double barycentric[kLargestRule][3];
-  double weightedHat[3][kLargestRule];  ///< weights sum to 1 over the points
-  double smallestDistance;  ///< from the centroid, in triangle radii, at which it is accurate
+  int tripleCount;            ///< 1 without, 2 with the centroid
+  double centroidWeight;      ///< weights sum to 1 over the points
+  double weight[2], near[2];  ///< of a triple's points: weight, and 1 - 2 b
+  double smallestDistance;    ///< from the centroid, in triangle radii, at which it is accurate
 };
 
 /// A triangle with everything that the integrals need, in non-dimensional coordinates.
@@ -56,7 +55,7 @@ struct PanelTask {
   int triangleCount;
   const int* ownIndex;  ///< #triangles, index into `own`, or -1
   const OwnTriangle* own;
-  const PanelRule* rules;  ///< kRuleCount of them, dearest first
+  PanelRule nearRule, farRule;  ///< seven points, three points
   double poissonRatio;
   double* h;              ///< #V blocks, added to
   double* g;              ///< #traction nodes blocks, added to
@@ -68,5 +67,14 @@ struct PanelTask {
 /// with Kelvin's displacement U and traction T (load at x, response at y). Far triangles use the
 /// cheapest rule that their distance admits, near and singular ones closed forms.
 void integratePanel(const PanelTask& task);
+
+/// equations[c][e] += sum over p of weights[p][e] * points[c][p], for c = 0 .. count - 1; the
+/// points' values are zero afterwards.
+/// @param weights    kLanes points by kLanes equations.
+/// @param points     count rows of kLanes points.
+/// @param equations  count rows of kLanes equations; overwritten, not added to, where `first` is
+/// set.
+void averagePoints(const double* weights, long count, bool first, double* points,
+                   double* equations);
 
 }  // namespace palpate::bem

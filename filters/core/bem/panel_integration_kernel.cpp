@@ -16,116 +16,195 @@ using bem::PanelTask;
 using bem::PanelTriangle;
 constexpr int kWidth = static_cast<int>(Batch::size);
 
-/// Adds node k's contribution, from the moments of its hat function, to the blocks of H and G.
-struct BlockWriter {
-  double nu, displacementFactor, tractionFactor;
+/// Kelvin's kernels up to their constant factors: U = factorU * u, T = factorT * (t + skew).
+struct KernelValues {
+  Batch u[6];     ///< xx, xy, xz, yy, yz, zz
+  Batch t[6];     ///< symmetric part, likewise
+  Batch skew[3];  ///< xy, xz, yz
+};
 
-  explicit BlockWriter(double poissonRatio)
-      : nu(poissonRatio),
-        displacementFactor(1 / (16 * kPi * (1 - poissonRatio))),
-        tractionFactor(-1 / (8 * kPi * (1 - poissonRatio))) {}
+/// Where a panel's values of one vertex of a triangle go.
+struct Blocks {
+  double *h, *g;
+};
 
-  void add(const Moments& m, const double* normal, double area, double* h, double* g) const {
-    const double cu = displacementFactor * area, ct = tractionFactor * area;
-    const Batch isotropicU = ((3 - 4 * nu) * cu) * (m.one[0] + m.one[3] + m.one[5]);
-    accumulate(g, 0, xsimd::fma(Batch(cu), m.one[0], isotropicU));
-    accumulate(g, 1, cu * m.one[1]);
-    accumulate(g, 2, cu * m.one[2]);
-    accumulate(g, 3, xsimd::fma(Batch(cu), m.one[3], isotropicU));
-    accumulate(g, 4, cu * m.one[4]);
-    accumulate(g, 5, xsimd::fma(Batch(cu), m.one[5], isotropicU));
+class PanelKernel {
+ public:
+  explicit PanelKernel(const PanelTask& task)
+      : task_(task),
+        nu_(task.poissonRatio),
+        factorU_(1 / (16 * kPi * (1 - nu_))),
+        factorT_(-1 / (8 * kPi * (1 - nu_))) {}
 
-    const double shear = (1 - 2 * nu) * ct;
-    const Batch isotropicT = shear * (m.five[0] + m.five[3] + m.five[5]);
-    const double c3 = 3 * ct;
-    // -(r_i n_j - r_j n_i), upper triangle; `shear` carries the sign of the leading minus.
-    const Batch xy = -shear * (m.three[0] * normal[1] - m.three[1] * normal[0]);
-    const Batch xz = -shear * (m.three[0] * normal[2] - m.three[2] * normal[0]);
-    const Batch yz = -shear * (m.three[1] * normal[2] - m.three[2] * normal[1]);
-    accumulate(h, 0, xsimd::fma(Batch(c3), m.five[0], isotropicT));
-    accumulate(h, 1, xsimd::fma(Batch(c3), m.five[1], xy));
-    accumulate(h, 2, xsimd::fma(Batch(c3), m.five[2], xz));
-    accumulate(h, 3, xsimd::fms(Batch(c3), m.five[1], xy));
-    accumulate(h, 4, xsimd::fma(Batch(c3), m.five[3], isotropicT));
-    accumulate(h, 5, xsimd::fma(Batch(c3), m.five[4], yz));
-    accumulate(h, 6, xsimd::fms(Batch(c3), m.five[2], xz));
-    accumulate(h, 7, xsimd::fms(Batch(c3), m.five[4], yz));
-    accumulate(h, 8, xsimd::fma(Batch(c3), m.five[5], isotropicT));
+  template <int Triples>
+  void addByRule(const PanelTriangle& t, const PanelRule& rule) const {
+    constexpr bool hasCentroid = Triples == 2;
+    constexpr int count = 3 * Triples + hasCentroid;
+    double y[count][3];
+    placePoints<Triples>(t, rule, y);
+    const double skewNormal[3] = {-(1 - 2 * nu_) * t.normal[0], -(1 - 2 * nu_) * t.normal[1],
+                                  -(1 - 2 * nu_) * t.normal[2]};
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      const Batch px = Batch::load_unaligned(task_.x[0] + lane);
+      const Batch py = Batch::load_unaligned(task_.x[1] + lane);
+      const Batch pz = Batch::load_unaligned(task_.x[2] + lane);
+      const Batch height = t.normal[0] * (t.vertex[0][0] - px) +
+                           t.normal[1] * (t.vertex[0][1] - py) +
+                           t.normal[2] * (t.vertex[0][2] - pz);
+      KernelValues values[count];
+      for (int q = 0; q < count; ++q)
+        evaluate(y[q][0] - px, y[q][1] - py, y[q][2] - pz, height, skewNormal, values[q]);
+      Blocks blocks[3];
+      for (int k = 0; k < 3; ++k) blocks[k] = blocksOf(t, k, lane);
+      addSums<Triples>(rule, values, t.area, blocks);
+    }
+  }
+
+  void addInClosedForm(const PanelTriangle& t, const bem::OwnTriangle* own) const {
+    const double shear = 1 - 2 * nu_;
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      const ClosedFormMoments moments(task_, t, own, lane);
+      for (int k = 0; k < 3; ++k) {
+        const Moments m = moments.ofHat(k);
+        KernelValues v;
+        const Batch isotropicU = (3 - 4 * nu_) * (m.one[0] + m.one[3] + m.one[5]);
+        const Batch isotropicT = shear * (m.five[0] + m.five[3] + m.five[5]);
+        for (int c = 0; c < 6; ++c) {
+          const bool diagonal = c == 0 || c == 3 || c == 5;
+          v.u[c] = diagonal ? m.one[c] + isotropicU : m.one[c];
+          v.t[c] = diagonal ? xsimd::fma(Batch(3), m.five[c], isotropicT) : 3.0 * m.five[c];
+        }
+        v.skew[0] = -shear * (m.three[0] * t.normal[1] - m.three[1] * t.normal[0]);
+        v.skew[1] = -shear * (m.three[0] * t.normal[2] - m.three[2] * t.normal[0]);
+        v.skew[2] = -shear * (m.three[1] * t.normal[2] - m.three[2] * t.normal[1]);
+        const Blocks blocks = blocksOf(t, k, lane);
+        for (int c = 0; c < 6; ++c) addU(blocks, c, 1, v.u[c]);
+        for (int c = 0; c < 6; ++c) addT(blocks, c, 1, v.t[c], v.skew);
+      }
+    }
   }
 
  private:
-  static void accumulate(double* block, int component, const Batch& value) {
-    double* target = block + component * kLanes;
-    (Batch::load_unaligned(target) + value).store_unaligned(target);
-  }
-};
-
-/// The fifteen kernel values at one quadrature point: r r/r^3, r/r^3, r r/r^5.
-struct KernelValues {
-  Batch value[15];
-};
-
-template <int Count>
-void addByRule(const PanelTask& task, const PanelTriangle& t, const PanelRule& rule,
-               const BlockWriter& writer) {
-  double y[Count][3];
-  for (int q = 0; q < Count; ++q)
-    for (int c = 0; c < 3; ++c)
-      y[q][c] = rule.barycentric[q][0] * t.vertex[0][c] + rule.barycentric[q][1] * t.vertex[1][c] +
-                rule.barycentric[q][2] * t.vertex[2][c];
-
-  for (int lane = 0; lane < kLanes; lane += kWidth) {
-    const Batch px = Batch::load_unaligned(task.x[0] + lane);
-    const Batch py = Batch::load_unaligned(task.x[1] + lane);
-    const Batch pz = Batch::load_unaligned(task.x[2] + lane);
-    KernelValues values[Count];
-    for (int q = 0; q < Count; ++q) {
-      const Batch rx = y[q][0] - px, ry = y[q][1] - py, rz = y[q][2] - pz;
-      const Batch r2 = xsimd::fma(rx, rx, xsimd::fma(ry, ry, rz * rz));
-      const Batch inverse = inverseSquareRoot(r2);
-      const Batch inverse2 = inverse * inverse, inverse3 = inverse2 * inverse;
-      Batch* v = values[q].value;
-      v[6] = rx * inverse3;
-      v[7] = ry * inverse3;
-      v[8] = rz * inverse3;
-      v[0] = rx * v[6];
-      v[1] = rx * v[7];
-      v[2] = rx * v[8];
-      v[3] = ry * v[7];
-      v[4] = ry * v[8];
-      v[5] = rz * v[8];
-      for (int c = 0; c < 6; ++c) v[9 + c] = v[c] * inverse2;
-    }
-    const Batch height = t.normal[0] * (t.vertex[0][0] - px) + t.normal[1] * (t.vertex[0][1] - py) +
-                         t.normal[2] * (t.vertex[0][2] - pz);
-    for (int k = 0; k < 3; ++k) {
-      Batch sum[15];
-      for (int c = 0; c < 15; ++c) {
-        sum[c] = rule.weightedHat[k][0] * values[0].value[c];
-        for (int q = 1; q < Count; ++q)
-          sum[c] = xsimd::fma(Batch(rule.weightedHat[k][q]), values[q].value[c], sum[c]);
+  template <int Triples>
+  static void placePoints(const PanelTriangle& t, const PanelRule& rule, double (*y)[3]) {
+    for (int c = 0; c < 3; ++c) {
+      for (int triple = 0; triple < Triples; ++triple) {
+        // (1 - 2 b) x_k + b (x_l + x_m) = b * (3 centroid) + (1 - 3 b) x_k
+        const double b = (1 - rule.near[triple]) / 2;
+        for (int k = 0; k < 3; ++k)
+          y[3 * triple + k][c] = 3 * b * t.centroid[c] + (1 - 3 * b) * t.vertex[k][c];
       }
-      Moments m;
-      for (int c = 0; c < 6; ++c) m.one[c] = sum[c];
-      for (int c = 0; c < 3; ++c) m.three[c] = sum[6 + c];
-      for (int c = 0; c < 6; ++c) m.five[c] = height * sum[9 + c];
-      writer.add(m, t.normal, t.area, task.h + 9 * kLanes * t.vertexIndex[k] + lane,
-                 task.g + 6 * kLanes * t.tractionNode[k] + lane);
+      if (Triples == 2) y[6][c] = t.centroid[c];
     }
   }
-}
 
-void addInClosedForm(const PanelTask& task, const PanelTriangle& t, const bem::OwnTriangle* own,
-                     const BlockWriter& writer) {
-  for (int lane = 0; lane < kLanes; lane += kWidth) {
-    const ClosedFormMoments moments(task, t, own, lane);
-    for (int k = 0; k < 3; ++k) {
-      const Moments m = moments.ofHat(k);
-      writer.add(m, t.normal, 1, task.h + 9 * kLanes * t.vertexIndex[k] + lane,
-                 task.g + 6 * kLanes * t.tractionNode[k] + lane);
+  /// @param r       from the collocation points to a quadrature point.
+  /// @param height  n . r.
+  void evaluate(const Batch& rx, const Batch& ry, const Batch& rz, const Batch& height,
+                const double* skewNormal, KernelValues& v) const {
+    const Batch r2 = xsimd::fma(rx, rx, xsimd::fma(ry, ry, rz * rz));
+    const Batch inverse = inverseSquareRoot(r2);
+    const Batch inverse2 = inverse * inverse, inverse3 = inverse2 * inverse;
+    const Batch sx = rx * inverse3, sy = ry * inverse3, sz = rz * inverse3;
+    const Batch m[6] = {rx * sx, rx * sy, rx * sz, ry * sy, ry * sz, rz * sz};
+    const Batch isotropicU = (3 - 4 * nu_) * inverse;
+    v.u[0] = m[0] + isotropicU;
+    v.u[1] = m[1];
+    v.u[2] = m[2];
+    v.u[3] = m[3] + isotropicU;
+    v.u[4] = m[4];
+    v.u[5] = m[5] + isotropicU;
+    const Batch steep = (3.0 * height) * inverse2;
+    const Batch isotropicT = ((1 - 2 * nu_) * height) * inverse3;
+    v.t[0] = xsimd::fma(steep, m[0], isotropicT);
+    v.t[1] = steep * m[1];
+    v.t[2] = steep * m[2];
+    v.t[3] = xsimd::fma(steep, m[3], isotropicT);
+    v.t[4] = steep * m[4];
+    v.t[5] = xsimd::fma(steep, m[5], isotropicT);
+    v.skew[0] = xsimd::fms(sx, Batch(skewNormal[1]), sy * skewNormal[0]);
+    v.skew[1] = xsimd::fms(sx, Batch(skewNormal[2]), sz * skewNormal[0]);
+    v.skew[2] = xsimd::fms(sy, Batch(skewNormal[2]), sz * skewNormal[1]);
+  }
+
+  /// Weights the values with the hat functions. On a triple (a, b, b) the sum over its points of
+  /// weight * hat_k * value is weight * (b * (sum of values) + (a - b) * value_k).
+  template <int Triples>
+  struct HatSums {
+    double common[Triples], extra[Triples], centroid;
+    explicit HatSums(const PanelRule& rule) : centroid(rule.centroidWeight / 3) {
+      for (int i = 0; i < Triples; ++i) {
+        const double b = (1 - rule.near[i]) / 2;
+        common[i] = rule.weight[i] * b;
+        extra[i] = rule.weight[i] * (rule.near[i] - b);
+      }
+    }
+    template <class Get>
+    void operator()(const KernelValues* values, const Get& get, Batch* sum) const {
+      Batch base = common[0] * (get(values[0]) + get(values[1]) + get(values[2]));
+      if constexpr (Triples == 2) {
+        base = xsimd::fma(Batch(common[1]), get(values[3]) + get(values[4]) + get(values[5]), base);
+        base = xsimd::fma(Batch(centroid), get(values[6]), base);
+      }
+      for (int k = 0; k < 3; ++k) {
+        sum[k] = xsimd::fma(Batch(extra[0]), get(values[k]), base);
+        if constexpr (Triples == 2)
+          sum[k] = xsimd::fma(Batch(extra[1]), get(values[3 + k]), sum[k]);
+      }
+    }
+  };
+
+  template <int Triples>
+  void addSums(const PanelRule& rule, const KernelValues* values, double area,
+               const Blocks* blocks) const {
+    const HatSums<Triples> sums(rule);
+    Batch sum[3], skew[3][3];
+    for (int c = 0; c < 6; ++c) {
+      sums(
+          values, [&](const KernelValues& v) { return v.u[c]; }, sum);
+      for (int k = 0; k < 3; ++k) addU(blocks[k], c, area, sum[k]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      sums(
+          values, [&](const KernelValues& v) { return v.skew[c]; }, sum);
+      for (int k = 0; k < 3; ++k) skew[k][c] = sum[k];
+    }
+    for (int c = 0; c < 6; ++c) {
+      sums(
+          values, [&](const KernelValues& v) { return v.t[c]; }, sum);
+      for (int k = 0; k < 3; ++k) addT(blocks[k], c, area, sum[k], skew[k]);
     }
   }
-}
+
+  Blocks blocksOf(const PanelTriangle& t, int k, int lane) const {
+    return {task_.h + 9 * kLanes * static_cast<long>(t.vertexIndex[k]) + lane,
+            task_.g + 6 * kLanes * static_cast<long>(t.tractionNode[k]) + lane};
+  }
+
+  static void accumulate(double* block, int component, const Batch& factor, const Batch& value) {
+    double* target = block + component * kLanes;
+    xsimd::fma(factor, value, Batch::load_unaligned(target)).store_unaligned(target);
+  }
+  void addU(const Blocks& blocks, int c, double area, const Batch& value) const {
+    accumulate(blocks.g, c, Batch(factorU_ * area), value);
+  }
+  /// Component c of the symmetric part, with the skew part where it is off the diagonal.
+  void addT(const Blocks& blocks, int c, double area, const Batch& symmetric,
+            const Batch* skew) const {
+    static constexpr int upper[6] = {0, 1, 2, 4, 5, 8}, lower[6] = {0, 3, 6, 4, 7, 8};
+    static constexpr int skewOf[6] = {-1, 0, 1, -1, 2, -1};
+    const Batch factor(factorT_ * area);
+    if (skewOf[c] < 0) {
+      accumulate(blocks.h, upper[c], factor, symmetric);
+    } else {
+      accumulate(blocks.h, upper[c], factor, symmetric + skew[skewOf[c]]);
+      accumulate(blocks.h, lower[c], factor, symmetric - skew[skewOf[c]]);
+    }
+  }
+
+  const PanelTask& task_;
+  double nu_, factorU_, factorT_;
+};
 
 /// Square of the distance from a triangle's centroid to the nearest point of the panel.
 double nearestSquared(const PanelTask& task, const PanelTriangle& t) {
@@ -146,25 +225,39 @@ double nearestSquared(const PanelTask& task, const PanelTriangle& t) {
 }  // namespace
 
 void integratePanel(const PanelTask& task) {
-  const BlockWriter writer(task.poissonRatio);
+  const PanelKernel kernel(task);
+  const double near2 = task.nearRule.smallestDistance * task.nearRule.smallestDistance;
+  const double far2 = task.farRule.smallestDistance * task.farRule.smallestDistance;
   for (int f = 0; f < task.triangleCount; ++f) {
     const PanelTriangle& t = task.triangles[f];
-    const double distance2 = nearestSquared(task, t);
-    const auto isAccurate = [&](const PanelRule& rule) {
-      const double wanted = rule.smallestDistance * t.radius;
-      return distance2 >= wanted * wanted;
-    };
-    if (isAccurate(task.rules[2])) {
-      addByRule<3>(task, t, task.rules[2], writer);
-    } else if (isAccurate(task.rules[1])) {
-      addByRule<7>(task, t, task.rules[1], writer);
-    } else if (isAccurate(task.rules[0])) {
-      addByRule<16>(task, t, task.rules[0], writer);
+    const double distance2 = nearestSquared(task, t) / (t.radius * t.radius);
+    if (distance2 >= far2) {
+      kernel.addByRule<1>(t, task.farRule);
+    } else if (distance2 >= near2) {
+      kernel.addByRule<2>(t, task.nearRule);
     } else {
-      addInClosedForm(task, t, task.ownIndex[f] < 0 ? nullptr : task.own + task.ownIndex[f],
-                      writer);
+      kernel.addInClosedForm(t, task.ownIndex[f] < 0 ? nullptr : task.own + task.ownIndex[f]);
       ++*task.closedFormCount;
     }
+  }
+}
+
+void averagePoints(const double* weights, long count, bool first, double* points,
+                   double* equations) {
+  constexpr int batches = kLanes / kWidth;
+  Batch weight[kLanes][batches];
+  for (int p = 0; p < kLanes; ++p)
+    for (int b = 0; b < batches; ++b)
+      weight[p][b] = Batch::load_unaligned(weights + p * kLanes + b * kWidth);
+  for (long c = 0; c < count; ++c) {
+    double* source = points + c * kLanes;
+    double* target = equations + c * kLanes;
+    for (int b = 0; b < batches; ++b) {
+      Batch sum = first ? Batch(0) : Batch::load_unaligned(target + b * kWidth);
+      for (int p = 0; p < kLanes; ++p) sum = xsimd::fma(weight[p][b], Batch(source[p]), sum);
+      sum.store_unaligned(target + b * kWidth);
+    }
+    for (int b = 0; b < batches; ++b) Batch(0).store_unaligned(source + b * kWidth);
   }
 }
 

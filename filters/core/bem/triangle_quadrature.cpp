@@ -71,26 +71,23 @@ TriangleRule triangleRule(int pointCount) {
   }
 }
 
-void choosePanelRules(double tolerance, PanelRule rules[kRuleCount]) {
+void choosePanelRules(double tolerance, PanelRule& nearRule, PanelRule& farRule) {
   // A rule of degree m misses an integral of kernel times hat by c d^-m of its magnitude, and the
   // triangles around distance d weigh about 1/d in an equation: error = factor * d^-(m + 1), with d
-  // from the centroid in triangle radii. The factors make the patch tests meet the tolerance.
-  constexpr int pointCount[kRuleCount] = {16, 7, 3};
-  constexpr double factor[kRuleCount] = {0.004, 0.01, 0.01};
+  // from the centroid in triangle radii. The factor makes the patch tests meet the tolerance.
+  constexpr double factor = 0.01;
   const double reachable =
       std::max(tolerance, 1e-13);  // beyond, closed forms lose more to rounding
-  for (int i = 0; i < kRuleCount; ++i) {
-    const TriangleRule rule = triangleRule(pointCount[i]);
-    PanelRule& out = rules[i];
-    out.pointCount = pointCount[i];
-    for (int q = 0; q < pointCount[i]; ++q)
-      for (int k = 0; k < 3; ++k) {
-        out.barycentric[q][k] = rule.barycentric(k, q);
-        out.weightedHat[k][q] = rule.weights[q] * rule.barycentric(k, q);
-      }
-    const double distance = std::pow(factor[i] / reachable, 1.0 / (rule.degree + 1));
-    out.smallestDistance = std::max(distance, 1.5);
-  }
+  const auto distance = [&](int degree) {
+    return std::max(std::pow(factor / reachable, 1.0 / (degree + 1)), 1.5);
+  };
+  const double root15 = std::sqrt(15.0);
+  nearRule = {2,
+              0.225,
+              {(155 - root15) / 1200, (155 + root15) / 1200},
+              {1 - 2 * (6 - root15) / 21, 1 - 2 * (6 + root15) / 21},
+              distance(5)};
+  farRule = {1, 0, {1.0 / 3, 0}, {2.0 / 3, 0}, distance(2)};
 }
 
 }  // namespace palpate::bem

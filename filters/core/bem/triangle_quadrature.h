@@ -22,9 +22,10 @@ struct TriangleRule {
 /// @throws std::invalid_argument for another number of points.
 TriangleRule triangleRule(int pointCount);
 
-/// The rules of a panel integration, dearest first, each with the distance from which it may be
-/// used so that a whole boundary integral equation is met to `tolerance` of the field's size.
+/// The rules of seven and of three points, each with the distance from which it may be used so that
+/// a whole boundary integral equation is met to `tolerance` of the field's size; nearer triangles
+/// are integrated in closed form.
 /// @param tolerance  relative; below 1e-13 it counts as 1e-13.
-void choosePanelRules(double tolerance, PanelRule rules[kRuleCount]);
+void choosePanelRules(double tolerance, PanelRule& nearRule, PanelRule& farRule);
 
 }  // namespace palpate::bem

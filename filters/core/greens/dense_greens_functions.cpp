@@ -9,17 +9,24 @@ namespace palpate {
 
 template <class Scalar>
 DenseGreensFunctions<Scalar>::DenseGreensFunctions(GreensFunctionsInfo info,
-                                                   AlignedBuffer<Scalar> matrix)
+                                                   AlignedBuffer<Scalar> matrix,
+                                                   AlignedBuffer<Scalar> patchMatrix)
     : GreensFunctions(std::move(info)) {
-  auto owner = std::make_shared<AlignedBuffer<Scalar>>(std::move(matrix));
-  matrix_ = owner->data();
+  auto owner = std::make_shared<std::pair<AlignedBuffer<Scalar>, AlignedBuffer<Scalar>>>(
+      std::move(matrix), std::move(patchMatrix));
+  matrix_ = owner->first.data();
+  patchMatrix_ = owner->second.data();
   keeper_ = owner;
 }
 
 template <class Scalar>
 DenseGreensFunctions<Scalar>::DenseGreensFunctions(GreensFunctionsInfo info, const Scalar* matrix,
+                                                   const Scalar* patchMatrix,
                                                    std::shared_ptr<const void> keeper)
-    : GreensFunctions(std::move(info)), matrix_(matrix), keeper_(std::move(keeper)) {}
+    : GreensFunctions(std::move(info)),
+      matrix_(matrix),
+      patchMatrix_(patchMatrix),
+      keeper_(std::move(keeper)) {}
 
 template <class Scalar>
 void DenseGreensFunctions<Scalar>::gather(NodeList rows, NodeList columns, double* out) const {
@@ -34,27 +41,50 @@ void DenseGreensFunctions<Scalar>::gather(NodeList rows, NodeList columns, doubl
 }
 
 template <class Scalar>
-void DenseGreensFunctions<Scalar>::accumulate(NodeList columns, Values weights,
-                                              Eigen::Ref<Eigen::VectorXd> out) const {
+template <class ColumnAt, class WeightAt>
+void DenseGreensFunctions<Scalar>::stream(Eigen::Index blocks, const ColumnAt& columnAt,
+                                          const WeightAt& weightAt,
+                                          Eigen::Ref<Eigen::VectorXd> out) const {
   // Fixed rows carry the factor s and free ones none; dividing the sum so far first keeps one pass.
-  const bool scaled = stiffnessScale_ != 1;
   const auto scaleFixedRows = [&](double factor) {
+    if (factor == 1) return;
     for (int node = 0; node < nodeCount(); ++node)
       if (isFixed(node)) out.template segment<3>(3 * node) *= factor;
   };
-  if (scaled) scaleFixedRows(1 / stiffnessScale_);
+  scaleFixedRows(1 / stiffnessScale_);
   const Scalar* group[kColumnGroup];
-  double groupWeights[kColumnGroup];
+  double weights[kColumnGroup];
   int size = 0;
-  for (Eigen::Index c = 0; c < columns.size(); ++c)
-    for (int j = 0; j < 3; ++j) {
-      group[size] = column(columns[c], j);
-      groupWeights[size++] = weights[3 * c + j] * (isFixed(columns[c]) ? 1 : 1 / stiffnessScale_);
-      if (size < kColumnGroup && (c + 1 < columns.size() || j < 2)) continue;
-      addWeightedColumns(group, groupWeights, size, 3 * nodeCount(), out.data());
-      size = 0;
-    }
-  if (scaled) scaleFixedRows(stiffnessScale_);
+  for (Eigen::Index c = 0; c < 3 * blocks; ++c) {
+    group[size] = columnAt(c / 3, c % 3);
+    weights[size++] = weightAt(c / 3, c % 3);
+    if (size < kColumnGroup && c + 1 < 3 * blocks) continue;
+    addWeightedColumns(group, weights, size, 3 * nodeCount(), out.data());
+    size = 0;
+  }
+  scaleFixedRows(stiffnessScale_);
+}
+
+template <class Scalar>
+void DenseGreensFunctions<Scalar>::accumulate(NodeList columns, Values weights,
+                                              Eigen::Ref<Eigen::VectorXd> out) const {
+  stream(
+      columns.size(), [&](Eigen::Index c, int j) { return column(columns[c], j); },
+      [&](Eigen::Index c, int j) {
+        return weights[3 * c + j] * (isFixed(columns[c]) ? 1 : 1 / stiffnessScale_);
+      },
+      out);
+}
+
+template <class Scalar>
+void DenseGreensFunctions<Scalar>::accumulatePatches(NodeList patchColumns, Values weights,
+                                                     Eigen::Ref<Eigen::VectorXd> out) const {
+  stream(
+      patchColumns.size(),
+      [&](Eigen::Index c, int j) {
+        return patchMatrix_ + (3 * std::size_t(patchColumns[c]) + j) * 3 * nodeCount();
+      },
+      [&](Eigen::Index c, int j) { return weights[3 * c + j] / stiffnessScale_; }, out);
 }
 
 template <class Scalar>
@@ -75,8 +105,8 @@ std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsM
     double youngsModulus) const {
   GreensFunctionsInfo scaledInfo = info();
   scaledInfo.material = Material(youngsModulus, info().material.poissonRatio());
-  auto scaled =
-      std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_, keeper_);
+  auto scaled = std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_,
+                                                               patchMatrix_, keeper_);
   scaled->stiffnessScale_ = stiffnessScale_ * youngsModulus / info().material.youngsModulus();
   return scaled;
 }

@@ -13,19 +13,23 @@ namespace palpate {
 template <class Scalar>
 class DenseGreensFunctions final : public GreensFunctions {
  public:
-  /// Takes over the matrix.
-  DenseGreensFunctions(GreensFunctionsInfo info, AlignedBuffer<Scalar> matrix);
+  /// Takes over the matrices.
+  DenseGreensFunctions(GreensFunctionsInfo info, AlignedBuffer<Scalar> matrix,
+                       AlignedBuffer<Scalar> patchMatrix = {});
 
-  /// Views a matrix that someone else keeps.
-  /// @param matrix  3 #nodes by 3 #columns.
-  /// @param keeper  held as long as this object lives.
-  DenseGreensFunctions(GreensFunctionsInfo info, const Scalar* matrix,
+  /// Views matrices that someone else keeps.
+  /// @param matrix       3 #nodes by 3 #columns.
+  /// @param patchMatrix  3 #nodes by 3 #patchColumns, null if there are none.
+  /// @param keeper       held as long as this object lives.
+  DenseGreensFunctions(GreensFunctionsInfo info, const Scalar* matrix, const Scalar* patchMatrix,
                        std::shared_ptr<const void> keeper);
 
   void gather(NodeList rows, NodeList columns, double* out) const override;
   void accumulate(NodeList columns, Values weights, Eigen::Ref<Eigen::VectorXd> out) const override;
   void accumulate(NodeList columns, Values weights, NodeList rows,
                   Eigen::Ref<Eigen::VectorXd> out) const override;
+  void accumulatePatches(NodeList patchColumns, Values weights,
+                         Eigen::Ref<Eigen::VectorXd> out) const override;
   std::shared_ptr<const GreensFunctions> withYoungsModulus(double youngsModulus) const override;
 
   /// The matrix as stored, for the Young's modulus it was made with.
@@ -42,7 +46,13 @@ class DenseGreensFunctions final : public GreensFunctions {
     return (isFixed(row) ? stiffnessScale_ : 1) * (isFixed(column) ? 1 : 1 / stiffnessScale_);
   }
 
-  const Scalar* matrix_;
+  /// out += columns * weights by the streaming kernel; `columnAt(i, j)` and `weightAt(i, j)` give
+  /// component j of block i.
+  template <class ColumnAt, class WeightAt>
+  void stream(Eigen::Index blocks, const ColumnAt& columnAt, const WeightAt& weightAt,
+              Eigen::Ref<Eigen::VectorXd> out) const;
+
+  const Scalar *matrix_, *patchMatrix_;
   std::shared_ptr<const void> keeper_;
   double stiffnessScale_ = 1;
 };

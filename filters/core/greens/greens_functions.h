@@ -24,16 +24,22 @@ inline Eigen::Map<const Eigen::VectorXi> nodeList(const std::vector<int>& nodes)
   return {nodes.data(), static_cast<Eigen::Index>(nodes.size())};
 }
 
+/// A column for the traction on one smooth patch of a vertex on a sharp edge, all else zero.
+struct PatchColumn {
+  int node, patch;
+};
+
 /// What Green's functions belong to and how they were made.
 struct GreensFunctionsInfo {
   BoundaryConditions conditions;  ///< reference BVP, #nodes
   Material material{1, 0};        ///< as served
   Domain domain = Domain::Interior;
-  Eigen::VectorXd vertexAreas;    ///< #nodes, eq. 5
-  std::vector<int> columnNodes;   ///< nodes whose columns are stored, in storage order
-  std::uint64_t fingerprint = 0;  ///< ElasticModel::fingerprint()
-  bool reciprocal = false;        ///< the free-free blocks are symmetric as force compliances
-  std::string source;             ///< method, options and version, for people
+  Eigen::VectorXd vertexAreas;            ///< #nodes, eq. 5
+  std::vector<int> columnNodes;           ///< nodes whose columns are stored, in storage order
+  std::vector<PatchColumn> patchColumns;  ///< extra columns, in storage order
+  std::uint64_t fingerprint = 0;          ///< ElasticModel::fingerprint()
+  bool reciprocal = false;  ///< the free-free blocks are symmetric as force compliances
+  std::string source;       ///< method, options and version, for people
   Diagnostics diagnostics;
 };
 
@@ -71,6 +77,12 @@ class GreensFunctions {
   virtual void accumulate(NodeList columns, Values weights, NodeList rows,
                           Eigen::Ref<Eigen::VectorXd> out) const = 0;
 
+  /// out += (response to tractions on single patches), all rows.
+  /// @param patchColumns  indices into info().patchColumns.
+  /// @param weights       3 #patchColumns, Pa.
+  virtual void accumulatePatches(NodeList patchColumns, Values weights,
+                                 Eigen::Ref<Eigen::VectorXd> out) const = 0;
+
   /// The same body with another Young's modulus, by scaling alone ([JP01] section 3.6).
   virtual std::shared_ptr<const GreensFunctions> withYoungsModulus(double youngsModulus) const = 0;
 
@@ -92,5 +104,20 @@ class GreensFunctions {
 /// @return 3 by #nodes: displacements at free, tractions at fixed nodes.
 Eigen::Matrix3Xd solveReferenceProblem(const GreensFunctions& greens,
                                        const Eigen::Matrix3Xd& given);
+
+/// Solves it for a traction on every triangle, which may jump across sharp edges. The nodal
+/// tractions are area-weighted means over each patch of a vertex, so that the applied force is that
+/// of the triangles exactly. What falls on nodes whose traction is unknown is part of their
+/// reaction.
+/// @param mesh, patches    as the Green's functions were made with.
+/// @param faceTractions    3 by #F, Pa.
+/// @param applied          set to the 3 by #nodes nodal forces applied, N.
+/// @return 3 by #nodes: displacements at free, tractions at fixed nodes.
+/// @throws std::invalid_argument if a vertex on a sharp edge is loaded whose patch columns were not
+///         computed.
+Eigen::Matrix3Xd solveFaceTractions(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                    const Eigen::VectorXi& patches,
+                                    const Eigen::Matrix3Xd& faceTractions,
+                                    Eigen::Matrix3Xd& applied);
 
 }  // namespace palpate

@@ -50,8 +50,8 @@ DenseLu<Scalar>::DenseLu(Scalar* matrix, int size, int stride, const Progress& p
       Scalar* right = matrix + std::size_t(k + width) * stride;
       lapack::laswp(rest, right, stride, k + 1, k + width, pivots_.data());
       lapack::trsmLeft(/*lower=*/true, width, rest, diagonal, stride, right + k, stride);
-      lapack::gemmSubtract(rest, rest, width, diagonal + width, stride, right + k, stride,
-                           right + k + width, stride);
+      lapack::gemm(false, rest, rest, width, Scalar(-1), diagonal + width, stride, right + k,
+                   stride, Scalar(1), right + k + width, stride);
     }
     progress.report(1 - double(rest) * rest * rest / allWork, "factor");
   }

@@ -56,13 +56,15 @@ void trsmLeft(bool lower, int m, int n, const float* a, int lda, float* b, int l
               lower ? CblasUnit : CblasNonUnit, m, n, 1, a, lda, b, ldb);
 }
 
-void gemmSubtract(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
-                  double* c, int ldc) {
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, -1, a, lda, b, ldb, 1, c, ldc);
+void gemm(bool transposeA, int m, int n, int k, double alpha, const double* a, int lda,
+          const double* b, int ldb, double beta, double* c, int ldc) {
+  cblas_dgemm(CblasColMajor, transposeA ? CblasTrans : CblasNoTrans, CblasNoTrans, m, n, k, alpha,
+              a, lda, b, ldb, beta, c, ldc);
 }
-void gemmSubtract(int m, int n, int k, const float* a, int lda, const float* b, int ldb, float* c,
-                  int ldc) {
-  cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, n, k, -1, a, lda, b, ldb, 1, c, ldc);
+void gemm(bool transposeA, int m, int n, int k, float alpha, const float* a, int lda,
+          const float* b, int ldb, float beta, float* c, int ldc) {
+  cblas_sgemm(CblasColMajor, transposeA ? CblasTrans : CblasNoTrans, CblasNoTrans, m, n, k, alpha,
+              a, lda, b, ldb, beta, c, ldc);
 }
 
 double gecon(int n, const double* lu, int ldlu, double norm) {

@@ -25,11 +25,11 @@ void laswp(int n, float* a, int lda, int first, int last, const int* pivots);
 void trsmLeft(bool lower, int m, int n, const double* a, int lda, double* b, int ldb);
 void trsmLeft(bool lower, int m, int n, const float* a, int lda, float* b, int ldb);
 
-/// C -= A B, A m by k, B k by n.
-void gemmSubtract(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
-                  double* c, int ldc);
-void gemmSubtract(int m, int n, int k, const float* a, int lda, const float* b, int ldb, float* c,
-                  int ldc);
+/// C := alpha op(A) B + beta C; op(A) m by k, B k by n.
+void gemm(bool transposeA, int m, int n, int k, double alpha, const double* a, int lda,
+          const double* b, int ldb, double beta, double* c, int ldc);
+void gemm(bool transposeA, int m, int n, int k, float alpha, const float* a, int lda,
+          const float* b, int ldb, float beta, float* c, int ldc);
 
 /// Reciprocal of the 1-norm condition number of a factored n by n matrix of 1-norm `norm`.
 double gecon(int n, const double* lu, int ldlu, double norm);

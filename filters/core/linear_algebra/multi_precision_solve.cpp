@@ -105,8 +105,8 @@ SolveReport solveMixedInPlace(const AlignedBuffer<double>& matrix, int size, int
             "refinement in double does not converge: the system is too ill-conditioned for mixed "
             "precision, use double");
       residual = block;
-      lapack::gemmSubtract(size, width, size, matrix.data(), stride, solution.data(), size,
-                           residual.data(), size);
+      lapack::gemm(false, size, width, size, -1.0, matrix.data(), stride, solution.data(), size,
+                   1.0, residual.data(), size);
     }
     block = solution;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "bem/volume_identities.h"
+#include "bem/betti_identities.h"
 
 #include <cmath>
 #include <Eigen/Geometry>
@@ -70,7 +70,7 @@ void integrate(const State& state, const Eigen::Vector3d* singular, const Corner
 
 template <class State>
 void integrateOverSurface(const BodySurface& body, const State& state,
-                          const Eigen::Vector3d* singular, VolumeIdentity& identity) {
+                          const Eigen::Vector3d* singular, BettiIdentity& identity) {
   identity.displacement = Eigen::Matrix3Xd::Zero(3, body.vertexCount());
   identity.traction = Eigen::Matrix3Xd::Zero(3, body.nodes.count());
   for (int f = 0; f < body.triangleCount(); ++f) {
@@ -94,25 +94,19 @@ std::vector<int> trianglesOfShell(const BodySurface& body, int shell) {
   return triangles;
 }
 
-Eigen::Vector3d centroidOf(const BodySurface& body, int f) {
-  return (body.points.col(body.triangles(0, f)) + body.points.col(body.triangles(1, f)) +
-          body.points.col(body.triangles(2, f))) /
-         3;
-}
-
 /// A point well inside a closed shell: of its centroid and the middles of chords from its triangles
 /// straight inwards, the one farthest from the surface.
 Eigen::Vector3d pointDeepInside(const BodySurface& body, int shell) {
   const std::vector<int> triangles = trianglesOfShell(body, shell);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (int f : triangles) middle += centroidOf(body, f) / double(triangles.size());
+  for (int f : triangles) middle += body.centroid(f) / double(triangles.size());
   const auto depth = [&](const Eigen::Vector3d& x) {
     double angle = 0, nearest = 1e300;
     for (int f : triangles) {
       angle +=
           solidAngle(x, body.points.col(body.triangles(0, f)),
                      body.points.col(body.triangles(1, f)), body.points.col(body.triangles(2, f)));
-      nearest = std::min(nearest, (centroidOf(body, f) - x).norm());
+      nearest = std::min(nearest, (body.centroid(f) - x).norm());
     }
     return std::abs(angle) > 2 * kPi ? nearest : -1;
   };
@@ -123,7 +117,7 @@ Eigen::Vector3d pointDeepInside(const BodySurface& body, int shell) {
   double bestDepth = depth(middle);
   const std::size_t stride = std::max<std::size_t>(1, triangles.size() / 32);
   for (std::size_t i = 0; i < triangles.size(); i += stride) {
-    const Eigen::Vector3d from = centroidOf(body, triangles[i]);
+    const Eigen::Vector3d from = body.centroid(triangles[i]);
     const Eigen::Vector3d along = inwards * body.normals.col(triangles[i]);
     for (double step = std::sqrt(body.areas[triangles[i]]) / 2; step < 10; step *= 1.5) {
       const Eigen::Vector3d x = from + step * along;
@@ -138,47 +132,89 @@ Eigen::Vector3d pointDeepInside(const BodySurface& body, int shell) {
   return best;
 }
 
+/// The identity of one shell's volume.
+BettiIdentity volumeIdentity(const BodySurface& body, const CollocationScheme& scheme, int shell,
+                             const std::vector<int>& shellOfVertex, const Eigen::Vector3d& middle) {
+  BettiIdentity identity;
+  if (body.shellIsCavity[shell]) {
+    const Eigen::Vector3d centre = pointDeepInside(body, shell);
+    integrateOverSurface(
+        body,
+        [&](const Eigen::Vector3d& y, const Eigen::Vector3d& n) {
+          return centreOfDilatation(y, n, centre);
+        },
+        &centre, identity);
+  } else {
+    integrateOverSurface(
+        body,
+        [&](const Eigen::Vector3d& y, const Eigen::Vector3d& n) {
+          return dilatation(y, n, middle, body.poissonRatio);
+        },
+        nullptr, identity);
+  }
+  const double scale = 1 / identity.displacement.norm();
+  identity.displacement *= scale;
+  identity.traction *= scale;
+  identity.weights = Eigen::MatrixX3d::Zero(scheme.equationCount(), 3);
+  for (int e = 0; e < scheme.equationCount(); ++e)
+    if (shellOfVertex[scheme.equations[e].vertex] == shell)
+      identity.weights.row(e) = scheme.equations[e].areaVector.transpose();
+  return identity;
+}
+
+/// Equilibrium of forces along an axis (motion 0..2) or of moments about it (3..5).
+BettiIdentity equilibriumIdentity(const BodySurface& body, const CollocationScheme& scheme,
+                                  int motion, const Eigen::Vector3d& middle) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(motion % 3);
+  const auto displacementAt = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return motion < 3 ? axis : Eigen::Vector3d(axis.cross(x - middle));
+  };
+  BettiIdentity identity;
+  integrateOverSurface(
+      body,
+      [&](const Eigen::Vector3d& y, const Eigen::Vector3d&) {
+        return AuxiliaryState{displacementAt(y), Eigen::Vector3d::Zero()};
+      },
+      nullptr, identity);
+  // About the size of the entries of G that it stands for.
+  identity.traction *= 0.1 / identity.traction.norm();
+  identity.weights.resize(scheme.equationCount(), 3);
+  for (int e = 0; e < scheme.equationCount(); ++e)
+    identity.weights.row(e) =
+        scheme.equations[e].area *
+        displacementAt(body.points.col(scheme.equations[e].vertex)).transpose();
+  return identity;
+}
+
+/// Gram-Schmidt, twice for accuracy.
+void orthonormaliseWeights(std::vector<BettiIdentity>& identities) {
+  for (std::size_t a = 0; a < identities.size(); ++a) {
+    Eigen::MatrixX3d& weights = identities[a].weights;
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t b = 0; b < a; ++b)
+        weights -= weights.cwiseProduct(identities[b].weights).sum() * identities[b].weights;
+    weights /= weights.norm();
+  }
+}
+
 }  // namespace
 
-std::vector<VolumeIdentity> volumeIdentities(const BodySurface& body,
-                                             const CollocationScheme& scheme) {
-  std::vector<VolumeIdentity> identities(body.shellIsCavity.size());
+std::vector<BettiIdentity> bettiIdentities(const BodySurface& body,
+                                           const CollocationScheme& scheme) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int f = 0; f < body.triangleCount(); ++f)
-    middle += body.areas[f] / body.areas.sum() * centroidOf(body, f);
-
+    middle += body.areas[f] / body.areas.sum() * body.centroid(f);
   std::vector<int> shellOfVertex(body.vertexCount());
   for (int f = 0; f < body.triangleCount(); ++f)
     for (int k = 0; k < 3; ++k) shellOfVertex[body.triangles(k, f)] = body.shell[f];
 
-  for (std::size_t s = 0; s < identities.size(); ++s) {
-    VolumeIdentity& identity = identities[s];
-    identity.weights = Eigen::MatrixX3d::Zero(scheme.pointCount(), 3);
-    for (int p = 0; p < scheme.pointCount(); ++p)
-      if (shellOfVertex[scheme.points[p].vertex] == static_cast<int>(s))
-        identity.weights.row(p) = scheme.points[p].areaVector.transpose();
-    identity.weights /= identity.weights.norm();
-
-    if (body.shellIsCavity[s]) {
-      const Eigen::Vector3d centre = pointDeepInside(body, static_cast<int>(s));
-      integrateOverSurface(
-          body,
-          [&](const Eigen::Vector3d& y, const Eigen::Vector3d& n) {
-            return centreOfDilatation(y, n, centre);
-          },
-          &centre, identity);
-    } else {
-      integrateOverSurface(
-          body,
-          [&](const Eigen::Vector3d& y, const Eigen::Vector3d& n) {
-            return dilatation(y, n, middle, body.poissonRatio);
-          },
-          nullptr, identity);
-    }
-    const double scale = 1 / identity.displacement.norm();
-    identity.displacement *= scale;
-    identity.traction *= scale;
-  }
+  const bool hasEquilibrium = scheme.kind == Collocation::Averaged && !body.exterior;
+  std::vector<BettiIdentity> identities;
+  for (int shell = 0; shell < static_cast<int>(body.shellIsCavity.size()); ++shell)
+    identities.push_back(volumeIdentity(body, scheme, shell, shellOfVertex, middle));
+  for (int motion = 0; motion < 6 && hasEquilibrium; ++motion)
+    identities.push_back(equilibriumIdentity(body, scheme, motion, middle));
+  orthonormaliseWeights(identities);
   return identities;
 }
 

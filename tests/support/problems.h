@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "bem/boundary_element_method.h"
+#include "model/elastic_model.h"
+#include "support/shapes.h"
+
+namespace palpate::test {
+
+using Place = std::function<bool(const Eigen::Vector3d&)>;
+
+/// A model of a shape, fixed where `fixed` says.
+ElasticModel makeModel(const Shape& shape, const Place& fixed, double youngsModulus,
+                       double poissonRatio, double smoothAngle = 30,
+                       Domain domain = Domain::Interior);
+
+/// Its Green's functions, raw unless the options say otherwise.
+std::shared_ptr<const GreensFunctions> computeGreens(const ElasticModel& model,
+                                                     BoundaryElementOptions options);
+
+/// Options with all nodes' columns, not symmetrised: the plain discretisation.
+BoundaryElementOptions rawWithAllColumns(const ElasticModel& model);
+
+/// Options with the free nodes' columns, not symmetrised.
+BoundaryElementOptions raw();
+
+/// sqrt(sum a_i |x_i - y_i|^2 / sum a_i |y_i|^2) over the nodes where `where` holds.
+double relativeError(const Eigen::Matrix3Xd& values, const Eigen::Matrix3Xd& exact,
+                     const ElasticModel& model, const std::function<bool(int)>& where);
+
+/// Slope of log(error) over log(mesh size) between two meshes, size falling like vertices^-1/2.
+double convergenceOrder(double coarseError, int coarseVertices, double fineError, int fineVertices);
+
+}  // namespace palpate::test
