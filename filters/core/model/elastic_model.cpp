@@ -39,10 +39,19 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
 }
 
 std::uint64_t ElasticModel::fingerprint() const {
+  return modelFingerprint(*mesh_, conditions_, smoothPatches_, material_.poissonRatio(), domain_);
+}
+
+std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                               const Eigen::VectorXi& smoothPatches, double poissonRatio,
+                               Domain domain) {
+  const unsigned char exterior = domain == Domain::Exterior;
   return Fingerprint()
-      .add(*mesh_)
-      .add(conditions_.types().data(), conditions_.types().size())
-      .add(smoothPatches_.data(), sizeof(int) * smoothPatches_.size())
+      .add(mesh)
+      .add(conditions.types().data(), conditions.types().size())
+      .add(smoothPatches.data(), sizeof(int) * smoothPatches.size())
+      .add(&poissonRatio, sizeof poissonRatio)
+      .add(&exterior, sizeof exterior)
       .value();
 }
 
