@@ -187,7 +187,7 @@ void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
   // Readers give any of the 64-bit integer classes.
   vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::MeshFingerprint);
   std::uint64_t stored = 0;
-  const bool usable = array && array->GetNumberOfValues() == 1 && array->IsIntegral() &&
+  const bool usable = array && array->GetNumberOfValues() == 1 &&
     array->GetDataTypeSize() == sizeof stored && array->HasStandardMemoryLayout();
   if (usable)
   {
