@@ -42,7 +42,9 @@ class AlignedBuffer {
     return size_ * sizeof(Scalar);
   }
   /// Counts fewer numbers from now on; the memory stays.
-  void truncate(std::size_t count) { size_ = count < size_ ? count : size_; }
+  void truncate(std::size_t count) {
+    size_ = count < size_ ? count : size_;
+  }
   Scalar* release() {
     size_ = 0;
     return data_.release();

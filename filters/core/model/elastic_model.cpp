@@ -57,7 +57,7 @@ std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions
 
 std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
                                        double& supportWidth) {
-  constexpr double thinFrom = 0.3, veryThinFrom = 1, narrowBelow = 3;
+  constexpr double thinFrom = 0.5, veryThinFrom = 1.5, narrowBelow = 3;
   std::vector<std::string> warnings;
   const auto warn = [&](auto&&... parts) {
     std::ostringstream text;
@@ -70,12 +70,11 @@ std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRa
   wallRatio = wall.ratio;
   if (wallRatio > veryThinFrom)
     warn("the wall at triangle ", wall.triangle,
-         " is thinner than the edges there (edge over "
-         "thickness ",
-         wallRatio, "): bending is lost there; refine, or use solid or shell elements");
+         " is thinner than the edges there (edge over thickness ", wallRatio,
+         "): it is too stiff in bending; refine, or use solid or shell elements");
   else if (wallRatio > thinFrom)
     warn("the wall at triangle ", wall.triangle, " is thin for the mesh (edge over thickness ",
-         wallRatio, "): bending is too stiff by about ", 100 * wallRatio * wallRatio, " %");
+         wallRatio, "): if it bends, compare with a finer mesh");
 
   const double width = supportWidthInEdges(model.mesh(), model.conditions());
   supportWidth = std::isfinite(width) ? width : -1;

@@ -49,8 +49,8 @@ class ElasticModel {
   Domain domain_;
 };
 
-/// Hash of what Green's functions depend on besides Young's modulus, which only scales them: points,
-/// triangles, boundary types, smooth patches, Poisson's ratio, domain.
+/// Hash of what Green's functions depend on besides Young's modulus, which only scales them:
+/// points, triangles, boundary types, smooth patches, Poisson's ratio, domain.
 std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                                const Eigen::VectorXi& smoothPatches, double poissonRatio,
                                Domain domain);
