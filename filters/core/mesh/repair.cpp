@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -217,22 +218,25 @@ void removeSelfIntersections(Surface& surface, ChangeList& changes) {
   const std::vector<std::pair<Face, Face>> crossing = crossingTriangles(mesh);
   if (crossing.empty()) return;
   requireOneShell(surface, crossing);
-  std::vector<int> touched;
-  for (const auto& [a, b] : crossing)
-    for (Face f : {a, b})
-      if (surface.faceOrigin[f] >= 0) touched.push_back(surface.faceOrigin[f]);
   std::map<Face, std::array<Vertex, 3>> before;
-  for (Face f : mesh.faces()) before[f] = surface.corners(f);
+  std::set<int> originsBefore;
+  for (Face f : mesh.faces()) {
+    before[f] = surface.corners(f);
+    if (surface.faceOrigin[f] >= 0) originsBefore.insert(surface.faceOrigin[f]);
+  }
   const std::string description = describeCrossing(surface, crossing.front());
 
   if (!PMP::experimental::remove_self_intersections(mesh))
     throw std::invalid_argument(description + ", and the surface cannot be rebuilt there");
+  std::set<int> replaced = std::move(originsBefore);
   for (Face f : mesh.faces()) {  // CGAL uses faces again for what it puts in their place
     const auto corners = before.find(f);
     if (corners == before.end() || corners->second != surface.corners(f))
       surface.faceOrigin[f] = -1;
+    replaced.erase(surface.faceOrigin[f]);
   }
-  changes.add("rebuilt the surface at triangles that cut through each other", touched);
+  changes.add("rebuilt the surface where triangles cut through each other",
+              {replaced.begin(), replaced.end()});
   fillHoles(surface, changes);
 }
 
@@ -274,16 +278,19 @@ bool isTurned(const std::array<int, 3>& a, const std::array<int, 3>& b) {
 }
 
 /// @param soup  the cleaned input.
-void reportMovesAndTurns(const RepairedSurface& surface, const TriangleSoup& soup,
-                         ChangeList& changes) {
+void reportVerticesAndTurns(const RepairedSurface& surface, const TriangleSoup& soup,
+                            ChangeList& changes) {
   std::map<int, Eigen::Vector3d> placeBefore;
   for (std::size_t v = 0; v < soup.points.size(); ++v)
     placeBefore[soup.vertexOrigin[v]] = soup.points[v];
-  std::vector<int> moved, turned;
+  std::vector<int> moved, removed, turned;
   for (std::size_t v = 0; v < surface.originalVertex.size(); ++v) {
     const int origin = surface.originalVertex[v];
     if (origin >= 0 && placeBefore[origin] != surface.points.col(v)) moved.push_back(origin);
   }
+  const std::set<int> left(surface.originalVertex.begin(), surface.originalVertex.end());
+  for (int origin : soup.vertexOrigin)
+    if (!left.count(origin)) removed.push_back(origin);
   std::map<int, std::array<int, 3>> cornersBefore;
   for (std::size_t f = 0; f < soup.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k)
@@ -295,6 +302,7 @@ void reportMovesAndTurns(const RepairedSurface& surface, const TriangleSoup& sou
     for (int k = 0; k < 3; ++k) corners[k] = surface.originalVertex[surface.triangles(k, f)];
     if (isTurned(corners, cornersBefore[origin])) turned.push_back(origin);
   }
+  changes.add("dropped vertices that are in no triangle any more", removed);
   changes.add("moved vertices", moved);
   changes.add("turned triangles round", turned);
 }
@@ -307,20 +315,14 @@ std::string firstDefect(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& 
   return defects.empty() ? "" : defects.front().sentence;
 }
 
-[[noreturn]] void refuse(const std::string& reason, const ChangeList& changes) {
-  std::string text = "the surface cannot be mended: " + reason;
-  for (std::size_t i = 0; i < changes.changes().size(); ++i)
-    text += (i ? "; " : ", after these changes: ") + changes.changes()[i];
-  throw std::invalid_argument(text);
-}
-
+/// @throws std::invalid_argument with the bare reason.
 RepairedSurface mend(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
-                     const Progress& progress) {
-  ChangeList changes;
+                     ChangeList& changes, const Progress& progress) {
   TriangleSoup soup = cleanSoup(points, triangles, changes);
   const TriangleSoup cleaned = soup;
   dropLooseTriangles(soup, changes);
-  if (soup.triangles.empty()) refuse("it has no triangle that could bound a body", changes);
+  if (soup.triangles.empty())
+    throw std::invalid_argument("it has no triangle that could bound a body");
   separatePieces(soup);
   orient(soup);
   progress.report(0.2, "repair");
@@ -336,11 +338,18 @@ RepairedSurface mend(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& tri
 
   RepairedSurface result = extract(surface);
   if (findMeshDefects(result.points, result.triangles, 1).empty()) turnOutwards(result);
-  reportMovesAndTurns(result, cleaned, changes);
+  reportVerticesAndTurns(result, cleaned, changes);
   const std::string defect = firstDefect(result.points, result.triangles);
-  if (!defect.empty()) refuse(defect, changes);
-  result.changes = changes.changes();
+  if (!defect.empty()) throw std::invalid_argument(defect);
   return result;
+}
+
+/// The reason, and what had been changed until it turned up: that may have brought it about.
+std::string refusal(const std::string& reason, const ChangeList& changes) {
+  std::string text = "the surface cannot be mended: " + reason;
+  for (std::size_t i = 0; i < changes.changes().size(); ++i)
+    text += (i ? "; " : ", after these changes: ") + changes.changes()[i];
+  return text;
 }
 
 RepairedSurface unchanged(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
@@ -356,16 +365,19 @@ RepairedSurface unchanged(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi
 RepairedSurface repairSurface(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
                               const ProgressCallback& callback) {
   const Progress progress(callback);
+  ChangeList changes;
   try {
     const bool isSound = firstDefect(points, triangles).empty();
     progress.report(0.1, "repair");
     RepairedSurface result =
-        isSound ? unchanged(points, triangles) : mend(points, triangles, progress);
+        isSound ? unchanged(points, triangles) : mend(points, triangles, changes, progress);
+    result.changes = changes.changes();
     progress.report(1, "repair");
     return result;
+  } catch (const std::invalid_argument& reason) {
+    throw std::invalid_argument(refusal(reason.what(), changes));
   } catch (const CGAL::Failure_exception& failure) {
-    throw std::runtime_error(std::string("the surface cannot be mended: CGAL gave up (") +
-                             failure.what() + ")");
+    throw std::runtime_error(refusal("CGAL gave up (" + failure.expression() + " " + failure.message() + ")", changes));
   }
 }
 

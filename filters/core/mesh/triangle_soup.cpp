@@ -69,33 +69,32 @@ std::vector<int> findPieces(const TriangleSoup& soup, const std::vector<Triangle
   return root;
 }
 
-/// Triangles with an edge of three or more and an edge of their own are peeled off until there are
-/// none.
-void dropDanglingTriangles(TriangleSoup& soup, ChangeList& changes) {
-  std::map<std::pair<int, int>, int> count;
-  const auto sidesOf = [&](const std::array<int, 3>& t) {
-    return std::array<int*, 3>{&count[std::minmax(t[0], t[1])], &count[std::minmax(t[1], t[2])],
-                               &count[std::minmax(t[2], t[0])]};
-  };
-  for (const auto& t : soup.triangles)
-    for (int* side : sidesOf(t)) ++*side;
-  std::vector<bool> keep(soup.triangles.size(), true);
+/// Pieces with an open border that own one triangle of an edge at which another piece owns two: a
+/// surface passes there without them.
+void dropDanglingPieces(TriangleSoup& soup, ChangeList& changes) {
+  std::vector<int> dropped;
   for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t f = 0; f < keep.size(); ++f) {
-      const auto sides = sidesOf(soup.triangles[f]);
-      const auto isOpen = [](const int* side) { return *side == 1; };
-      const auto isCrowded = [](const int* side) { return *side > 2; };
-      if (!keep[f] || std::none_of(sides.begin(), sides.end(), isOpen) ||
-          std::none_of(sides.begin(), sides.end(), isCrowded))
-        continue;
-      for (int* side : sides) --*side;
-      keep[f] = false;
-      changed = true;
-    }
+    const std::vector<TriangleSide> sides = sortedSides(soup.triangleMatrix());
+    const std::vector<int> piece = findPieces(soup, sides);
+    std::set<int> open, hanging;
+    forEachEdge(sides, [&](auto first, auto last) {
+      std::map<int, int> share;
+      for (auto side = first; side != last; ++side) ++share[piece[side->triangle]];
+      const bool passes = std::any_of(share.begin(), share.end(),
+                                      [](const auto& entry) { return entry.second == 2; });
+      for (const auto& [number, count] : share) {
+        if (last - first == 1) open.insert(number);
+        if (last - first > 2 && count == 1 && passes) hanging.insert(number);
+      }
+    });
+    std::vector<bool> keep;
+    for (int number : piece) keep.push_back(!open.count(number) || !hanging.count(number));
+    const std::vector<int> now = droppedOrigins(soup, keep);
+    dropped.insert(dropped.end(), now.begin(), now.end());
+    changed = !now.empty();
+    keepTriangles(soup, keep);
   }
-  changes.add("dropped triangles that hang from an edge of three", droppedOrigins(soup, keep));
-  keepTriangles(soup, keep);
+  changes.add("dropped triangles that hang from an edge of three", dropped);
 }
 
 /// True if the points lie in a plane up to kDuplicateDistance of their extent.
@@ -208,18 +207,19 @@ TriangleSoup cleanSoup(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& t
     } else if (!seen.insert(key).second) {
       repeated.push_back(f);
     } else {
-      for (int& v : corners) {
-        if (number[v] < 0) {
-          number[v] = static_cast<int>(soup.points.size());
-          soup.points.push_back(points.col(v));
-          soup.vertexOrigin.push_back(v);
-        }
-        v = number[v];
-      }
+      for (int v : corners) number[v] = 0;
       soup.triangles.push_back(corners);
       soup.triangleOrigin.push_back(f);
     }
   }
+  for (int v = 0; v < points.cols(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(soup.points.size());
+    soup.points.push_back(points.col(v));
+    soup.vertexOrigin.push_back(v);
+  }
+  for (std::array<int, 3>& corners : soup.triangles)
+    for (int& v : corners) v = number[v];
   for (int v = 0; v < points.cols(); ++v)
     if (target[v] >= 0 && target[v] != v)
       welded.push_back(v);
@@ -234,7 +234,7 @@ TriangleSoup cleanSoup(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& t
 }
 
 void dropLooseTriangles(TriangleSoup& soup, ChangeList& changes) {
-  dropDanglingTriangles(soup, changes);
+  dropDanglingPieces(soup, changes);
   dropFlatPieces(soup, changes);
 }
 

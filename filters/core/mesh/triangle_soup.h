@@ -36,14 +36,14 @@ class ChangeList {
 };
 
 /// The usable, distinct and not collapsed triangles, with their vertices welded where they lie
-/// within kDuplicateDistance of each other, and no vertex besides.
+/// within kDuplicateDistance of each other, and no vertex besides, all in the input's order.
 /// @param points     3 by #V, any numbers.
 /// @param triangles  3 by #F, any numbers.
 TriangleSoup cleanSoup(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
                        ChangeList& changes);
 
-/// Drops triangles that hang from an edge of three or more, with nothing at another of their edges;
-/// and flat pieces that share no edge with the rest: they enclose nothing.
+/// Drops open pieces that hang from an edge which a surface passes without them; and flat pieces
+/// that share no edge with the rest: they enclose nothing.
 void dropLooseTriangles(TriangleSoup& soup, ChangeList& changes);
 
 /// Gives the pieces of the surface that only touch at vertices or edges vertices of their own. A
