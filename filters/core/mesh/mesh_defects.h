@@ -69,7 +69,7 @@ std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distan
 
 /// Triangles that cross each other or touch beyond a shared vertex or edge (CGAL). Empty when the
 /// library was built without CGAL.
-/// @param largestCount  at most so many pairs are listed.
+/// @param largestCount  at most so many pairs are listed, those of the lowest triangles.
 std::vector<MeshDefect> findSelfIntersections(const SurfaceMesh& mesh,
                                               std::size_t largestCount = 16);
 
