@@ -7,6 +7,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -35,8 +36,12 @@ void parallelFor(int count, int threads, const std::function<void(int, int)>& ta
     }
   };
   std::vector<std::thread> helpers;
-  for (int thread = 1; thread < std::min(threads, count); ++thread)
-    helpers.emplace_back(work, thread);
+  try {
+    for (int thread = 1; thread < std::min(threads, count); ++thread)
+      helpers.emplace_back(work, thread);
+  } catch (const std::system_error&) {
+    // The system grants no more threads: those there are do all the work.
+  }
   work(0);
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);

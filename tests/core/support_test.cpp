@@ -170,15 +170,12 @@ std::vector<int> where(const Shape& shape, const std::function<bool(const Eigen:
 }
 
 TEST(SupportWidth, OfABoxsBaseIsItsShorterSideOverTheMeanEdge) {
-  // 8 by 4 squares of side 1, each with a diagonal. The inner edges are met from both their
-  // triangles, those of the rim from one (the other's third vertex is free or counted at the rim).
+  // 8 by 4 squares of side 1: 8 * 5 + 9 * 4 edges of length 1 and a diagonal in each square.
   const Shape plate = box({8, 4, 2}, {8, 4, 2});
-  const double width = widthOf(plate, where(plate, [](auto& x) { return x.z() < 1e-9; }));
-  EXPECT_GT(width, 4 / std::sqrt(2.0));
-  EXPECT_LT(width, 4);
-  // Twice as fine, about twice as many edges wide: the rim's part of the mean shrinks.
-  const Shape fine = box({8, 4, 2}, {16, 8, 4});
-  EXPECT_NEAR(widthOf(fine, where(fine, [](auto& x) { return x.z() < 1e-9; })) / width, 2, 0.05);
+  const double meanEdge = (76 + 32 * std::sqrt(2.0)) / 108;
+  for (double scale : {1e-6, 1.0, 1e6})
+    EXPECT_NEAR(widthOf(plate.scaled(scale), where(plate, [](auto& x) { return x.z() < 1e-9; })),
+                4 / meanEdge, 1e-12);
 }
 
 TEST(SupportWidth, OfALineOrANodeIsNothing) {

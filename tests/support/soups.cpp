@@ -46,6 +46,12 @@ Shape bipyramid(int valence) {
   return shape;
 }
 
+Shape flatBipyramid(int valence) {
+  return bipyramid(valence).mapped([](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x() + 0.1 * x.z(), x.y() + 0.05 * x.z(), 0);
+  });
+}
+
 Shape hollowSphere(int levels, double cavityRadius) {
   return icosphere(levels).with(icosphere(levels).scaled(cavityRadius).flipped());
 }

@@ -14,6 +14,9 @@ Shape tetrahedron();
 /// are the tips, each in `valence` triangles.
 Shape bipyramid(int valence);
 
+/// The same pressed into the plane of its polygon, its tips apart: closed, of no volume.
+Shape flatBipyramid(int valence);
+
 /// A unit sphere around a spherical cavity: sound, the cavity's triangles point inwards.
 Shape hollowSphere(int levels, double cavityRadius);
 
