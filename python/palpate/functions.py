@@ -180,7 +180,7 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     -------
     vtkPolyData
         The model with `Displacement` and `Traction` (n by 3), and the field arrays `ContactForce` and
-        `ContactTorque` (1 by 3, of all `nodes` that are free in the model, on the body) and
+        `ContactTorque` (1 by 3, what acts on the body at `nodes`, the torque about their centroid) and
         `ContactCondition`.
 
     Raises
