@@ -86,6 +86,14 @@ class Precompute(unittest.TestCase):
                 self.assertAlmostEqual(defect, reported, delta=1e-3 * reported)
             self.assertGreater(reported, 1e-3)
 
+    def test_doubtful_models_warn_with_the_measured_number(self):
+        surface = sphere(2)
+        small = lower_cap(surface, -0.95)
+        with self.assertWarnsRegex(palpate.ModelWarning, r"support is only [0-9.]+ edges wide"):
+            model = palpate.precompute(surface, 1e4, 0.3, fixed=small)
+        self.assertEqual(len(palpate.array(model, "Warnings")), 1)
+        self.assertLess(palpate.array(model, "SupportWidth")[0], 3)
+
     def test_exterior_of_a_cavity_needs_no_support(self):
         # A9: u_r = p a / (4 mu) of a spherical cavity of radius a under pressure p.
         young, poisson = 2.6, 0.3
