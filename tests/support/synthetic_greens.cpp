@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <numeric>
@@ -75,6 +76,46 @@ template std::shared_ptr<const DenseGreensFunctions<float>> denseGreens(GreensFu
 
 std::shared_ptr<const GreensFunctions> syntheticGreens(const SyntheticBody& body) {
   return denseGreens(body.info(), body.matrix());
+}
+
+void makeTwins(GreensFunctionsInfo& info, Eigen::MatrixXd& matrix, int a, int b, double difference,
+               std::mt19937& random) {
+  const int n = info.conditions.nodeCount();
+  const auto noise = [&](int rows) -> Eigen::MatrixXd {
+    return difference * randomVectors(3 * n, random).reshaped(rows, 9 * n / rows);
+  };
+  info.vertexAreas[b] = info.vertexAreas[a];
+  matrix.middleCols<3>(3 * b) = matrix.middleCols<3>(3 * a) + noise(3 * n);
+  matrix.middleRows<3>(3 * b) = matrix.middleRows<3>(3 * a) + noise(3);
+}
+
+Eigen::MatrixXd selection(const std::vector<ConstraintSwitch>& switches, int nodeCount) {
+  Eigen::MatrixXd e = Eigen::MatrixXd::Zero(3 * nodeCount, switches.size());
+  for (std::size_t k = 0; k < switches.size(); ++k)
+    e.block<3, 1>(3 * switches[k].node, k) = switches[k].direction;
+  return e;
+}
+
+std::vector<std::vector<ConstraintSwitch>> randomSwitches(const std::vector<int>& nodes,
+                                                          std::mt19937& random) {
+  std::vector<std::vector<ConstraintSwitch>> switches;
+  for (int node : nodes) {
+    const int count = 1 + static_cast<int>(random() % 3);
+    const Eigen::Matrix3d frame =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), randomDirection(random))
+            .toRotationMatrix();
+    switches.emplace_back();
+    for (int k = 0; k < count; ++k)
+      switches.back().push_back(
+          {node, (frame.col(k) + 0.4 * randomDirection(random)).normalized()});
+  }
+  return switches;
+}
+
+std::vector<ConstraintSwitch> flat(const std::vector<std::vector<ConstraintSwitch>>& switches) {
+  std::vector<ConstraintSwitch> all;
+  for (const auto& ofNode : switches) all.insert(all.end(), ofNode.begin(), ofNode.end());
+  return all;
 }
 
 Eigen::MatrixXd denseMatrix(const GreensFunctions& greens) {

@@ -40,8 +40,23 @@ std::shared_ptr<const DenseGreensFunctions<Scalar>> denseGreens(
 
 std::shared_ptr<const GreensFunctions> syntheticGreens(const SyntheticBody& body);
 
+/// Makes free node b respond as free node a does but for a random difference, as two nodes
+/// at nearly the same place.
+void makeTwins(GreensFunctionsInfo& info, Eigen::MatrixXd& matrix, int a, int b, double difference,
+               std::mt19937& random);
+
 /// Xi[all rows, columns of all nodes].
 Eigen::MatrixXd denseMatrix(const GreensFunctions& greens);
+
+/// E, whose columns are node times direction.
+Eigen::MatrixXd selection(const std::vector<ConstraintSwitch>& switches, int nodeCount);
+
+/// One to three directions at each of some nodes, in general not at right angles.
+std::vector<std::vector<ConstraintSwitch>> randomSwitches(const std::vector<int>& nodes,
+                                                          std::mt19937& random);
+
+/// All of them in one list.
+std::vector<ConstraintSwitch> flat(const std::vector<std::vector<ConstraintSwitch>>& switches);
 
 /// Solves a boundary value problem as one dense system of the 6n nodal values: v = Xi v_given, with
 /// the switched components of the two given the other way round.

@@ -142,10 +142,7 @@ CapacitanceSolver::Problem CapacitanceSolver::prepare(const BoundaryValues& valu
   if (values.given.size() > 0 && values.given.cols() != n)
     throw std::invalid_argument("there are " + std::to_string(values.given.cols()) +
                                 " given values for " + std::to_string(n) + " nodes");
-  for (const ConstraintSwitch& s : values.switches)
-    if (s.node < 0 || s.node >= n)
-      throw std::invalid_argument("there is no node " + std::to_string(s.node) +
-                                  ": the model has " + std::to_string(n) + " nodes");
+  requireSwitches(*greens_, values.switches);
   if (!values.prescribed.allFinite() || !values.given.allFinite())
     throw std::invalid_argument("a prescribed value is not a finite number");
 

@@ -32,6 +32,10 @@ std::vector<int> nodesOf(const GreensFunctions& greens, const std::vector<Contac
 ContactZones::ContactZones(std::shared_ptr<const GreensFunctions> greens, const SurfaceMesh& mesh,
                            std::vector<ContactZone> zones)
     : zones_(std::move(zones)), matrix_(greens, switchesOfNodes(nodesOf(*greens, zones_))) {
+  if (greens->nodeCount() != mesh.vertexCount())
+    throw std::invalid_argument("the Green's functions have " +
+                                std::to_string(greens->nodeCount()) + " nodes, the surface " +
+                                std::to_string(mesh.vertexCount()) + " vertices");
   const std::vector<int> nodes = nodesOf(*greens, zones_);
   positions_ = mesh.points()(Eigen::all, nodes);
   areas_ = greens->info().vertexAreas(nodes);

@@ -8,6 +8,14 @@
 #include <stdexcept>
 
 namespace palpate {
+namespace {
+
+// Rounding, as under a rotation of the mesh, must not decide what belongs to a mask: vertices just
+// at the radius and normals at right angles (the edges of a box) do not.
+constexpr double kEdgeOfRadius = 1 - 1e-9;
+constexpr double kSmallestCosine = 1e-6;
+
+}  // namespace
 
 MaskShape maskShapeFromName(const std::string& name) {
   if (name == "linear") return MaskShape::Linear;
@@ -59,8 +67,8 @@ VertexMask PressureMasks::at(int vertex) const {
         const int v = mesh_.triangles()(k, f);
         if (seen[v]) continue;
         seen[v] = true;
-        if ((mesh_.points().col(v) - centre).norm() < radius_ &&
-            mesh_.vertexNormals().col(v).dot(normal) > 0)
+        if ((mesh_.points().col(v) - centre).norm() < kEdgeOfRadius * radius_ &&
+            mesh_.vertexNormals().col(v).dot(normal) > kSmallestCosine)
           reached.push_back(v);
       }
   VertexMask mask;
