@@ -24,7 +24,7 @@ struct Diagnostics {
   double solverResidual = -1;
   /// Relative integration tolerance that was asked for.
   double quadratureTolerance = -1;
-  /// Largest edge length over local wall thickness (bending locks from about 0.3 on).
+  /// Largest edge length over local wall thickness (bending locks, see largestWallRatio).
   double wallRatio = -1;
   /// Narrowest width of a body's support in edge lengths.
   double supportWidth = -1;

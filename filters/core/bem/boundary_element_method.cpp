@@ -196,6 +196,7 @@ class Precomputation {
         std::memmove(system.right.data() + c * rows,
                      system.right.data() + c * std::size_t(system.stride), rows * sizeof(Scalar));
       matrix_ = std::move(system.right);
+      matrix_.truncate(rows * system.columns);
       return;
     }
     for (int c = 0; c < columns.wanted.count(); ++c)
@@ -261,6 +262,7 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
     patchMatrix = AlignedBuffer<Scalar>(block * info.patchColumns.size());
     std::copy_n(matrix.data() + block * info.columnNodes.size(), patchMatrix.size(),
                 patchMatrix.data());
+    matrix.truncate(block * info.columnNodes.size());
   }
   info.diagnostics.reciprocityDefect = makeReciprocal(
       matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal);

@@ -41,6 +41,10 @@ class AlignedBuffer {
   std::size_t bytes() const {
     return size_ * sizeof(Scalar);
   }
+  /// Counts fewer numbers from now on; the memory stays.
+  void truncate(std::size_t count) {
+    size_ = count < size_ ? count : size_;
+  }
   Scalar* release() {
     size_ = 0;
     return data_.release();

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "mesh/mesh_defects.h"
+#include "mesh/off_file.h"
 #include "mesh/repair.h"
 #include "mesh/wall_thickness.h"
 
@@ -17,6 +18,10 @@ std::vector<MeshDefect> findSelfIntersections(const SurfaceMesh&, std::size_t) {
 
 WallRatio largestWallRatio(const SurfaceMesh&) {
   return {};
+}
+
+PolygonSoup readOffFile(const std::string&) {
+  throw std::runtime_error("OFF files need CGAL, which this build of Palpate was made without");
 }
 
 RepairedSurface repairSurface(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,

@@ -39,16 +39,25 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
 }
 
 std::uint64_t ElasticModel::fingerprint() const {
+  return modelFingerprint(*mesh_, conditions_, smoothPatches_, material_.poissonRatio(), domain_);
+}
+
+std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                               const Eigen::VectorXi& smoothPatches, double poissonRatio,
+                               Domain domain) {
+  const unsigned char exterior = domain == Domain::Exterior;
   return Fingerprint()
-      .add(*mesh_)
-      .add(conditions_.types().data(), conditions_.types().size())
-      .add(smoothPatches_.data(), sizeof(int) * smoothPatches_.size())
+      .add(mesh)
+      .add(conditions.types().data(), conditions.types().size())
+      .add(smoothPatches.data(), sizeof(int) * smoothPatches.size())
+      .add(&poissonRatio, sizeof poissonRatio)
+      .add(&exterior, sizeof exterior)
       .value();
 }
 
 std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
                                        double& supportWidth) {
-  constexpr double thinFrom = 0.3, veryThinFrom = 1, narrowBelow = 3;
+  constexpr double thinFrom = 0.5, veryThinFrom = 1.5, narrowBelow = 3;
   std::vector<std::string> warnings;
   const auto warn = [&](auto&&... parts) {
     std::ostringstream text;
@@ -61,12 +70,11 @@ std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRa
   wallRatio = wall.ratio;
   if (wallRatio > veryThinFrom)
     warn("the wall at triangle ", wall.triangle,
-         " is thinner than the edges there (edge over "
-         "thickness ",
-         wallRatio, "): bending is lost there; refine, or use solid or shell elements");
+         " is thinner than the edges there (edge over thickness ", wallRatio,
+         "): it is too stiff in bending; refine, or use solid or shell elements");
   else if (wallRatio > thinFrom)
     warn("the wall at triangle ", wall.triangle, " is thin for the mesh (edge over thickness ",
-         wallRatio, "): bending is too stiff by about ", 100 * wallRatio * wallRatio, " %");
+         wallRatio, "): if it bends, compare with a finer mesh");
 
   const double width = supportWidthInEdges(model.mesh(), model.conditions());
   supportWidth = std::isfinite(width) ? width : -1;

@@ -38,8 +38,7 @@ class ElasticModel {
   const Eigen::VectorXi& smoothPatches() const { return smoothPatches_; }
   Domain domain() const { return domain_; }
 
-  /// Hash of what the Green's functions depend on besides the material: points, triangles, boundary
-  /// types, smooth patches.
+  /// modelFingerprint of its parts.
   std::uint64_t fingerprint() const;
 
  private:
@@ -49,6 +48,12 @@ class ElasticModel {
   Eigen::VectorXi smoothPatches_;
   Domain domain_;
 };
+
+/// Hash of what Green's functions depend on besides Young's modulus, which only scales them:
+/// points, triangles, boundary types, smooth patches, Poisson's ratio, domain.
+std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                               const Eigen::VectorXi& smoothPatches, double poissonRatio,
+                               Domain domain);
 
 /// Sentences, each with its measured number, about what makes a model's answers doubtful: walls too
 /// thin for linear triangles and supports too small for the mesh.

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of `palpate`, a source file each. Each adds its options and what runs when it is
+/// chosen.
+namespace palpate::app {
+
+void addInfo(CLI::App& program);
+void addRepair(CLI::App& program);
+void addRefine(CLI::App& program);
+void addPrecompute(CLI::App& program);
+void addPress(CLI::App& program);
+void addStiffness(CLI::App& program);
+
+}  // namespace palpate::app

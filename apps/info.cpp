@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "mesh/mesh_defects.h"
+#include "mesh/surface_mesh.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+Eigen::Matrix3Xd pointsOf(vtkPolyData* surface) {
+  Eigen::Matrix3Xd points(3, surface->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < points.cols(); ++i) surface->GetPoint(i, points.col(i).data());
+  return points;
+}
+
+/// Empty if there is a cell that is not a triangle.
+Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface) {
+  Eigen::Matrix3Xi triangles(3, surface->GetNumberOfCells());
+  for (vtkIdType f = 0; f < triangles.cols(); ++f) {
+    vtkIdType count;
+    const vtkIdType* corners;
+    surface->GetCellPoints(f, count, corners);
+    if (count != 3) return {};
+    for (int k = 0; k < 3; ++k) triangles(k, f) = static_cast<int>(corners[k]);
+  }
+  return triangles;
+}
+
+void printDefects(const std::vector<MeshDefect>& defects) {
+  printRow("sound", "no; `palpate repair` may mend it");
+  for (const MeshDefect& defect : defects) std::cout << "  " << defect.sentence << "\n";
+}
+
+void printSurface(vtkPolyData* surface) {
+  const double* b = surface->GetBounds();
+  const double size[3] = {b[1] - b[0], b[3] - b[2], b[5] - b[4]};
+  printRow("vertices", std::to_string(surface->GetNumberOfPoints()));
+  printRow("cells", std::to_string(surface->GetNumberOfCells()));
+  printRow("size", vectorText(size));
+  const Eigen::Matrix3Xi triangles = trianglesOf(surface);
+  if (triangles.cols() == 0) {
+    printRow("sound", "no: not all cells are triangles; `palpate repair` cuts them up");
+    return;
+  }
+  const std::vector<MeshDefect> defects = findMeshDefects(pointsOf(surface), triangles);
+  if (!defects.empty()) {
+    printDefects(defects);
+    return;
+  }
+  try {
+    const SurfaceMesh mesh(pointsOf(surface), triangles);
+    printRow("bodies", std::to_string(mesh.bodyCount()));
+    printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
+    printRow("area", number(mesh.triangleAreas().sum()));
+    printRow("mean edge length", number(mesh.meanEdgeLength()));
+    const std::vector<MeshDefect> crossings = findSelfIntersections(mesh);
+    if (crossings.empty())
+      printRow("sound", "yes");
+    else
+      printDefects(crossings);
+  } catch (const std::invalid_argument& inside) {
+    printRow("sound", std::string("no: ") + inside.what());
+  }
+}
+
+void printProblem(vtkPolyData* surface) {
+  if (vtkDataArray* types = surface->GetPointData()->GetArray("BoundaryType")) {
+    vtkIdType fixed = 0;
+    for (vtkIdType i = 0; i < types->GetNumberOfTuples(); ++i)
+      fixed += types->GetComponent(i, 0) != 0;
+    printRow("fixed vertices", std::to_string(fixed));
+    printRow("free vertices", std::to_string(types->GetNumberOfTuples() - fixed));
+  }
+  const auto printField = [&](const char* name, const std::string& label) {
+    const double value = fieldNumber(surface, name, -1);
+    if (surface->GetFieldData()->HasArray(name) && value != -1) printRow(label, number(value));
+  };
+  printField("YoungsModulus", "Young's modulus, Pa");
+  printField("PoissonRatio", "Poisson's ratio");
+  if (vtkDataArray* nodes = surface->GetFieldData()->GetArray("GreensFunctionNodes"))
+    printRow("Green's functions of", std::to_string(nodes->GetNumberOfTuples()) + " vertices");
+  for (const std::string& source : fieldStrings(surface, "GreensFunctionSource"))
+    printRow("made by", source);
+  printField("ConditionEstimate", "condition number");
+  printField("ReciprocityDefect", "reciprocity defect");
+  printField("RotationDefect", "integration defect");
+  printField("SolverResidual", "solver residual");
+  printField("WallRatio", "edge over wall thickness");
+  printField("SupportWidth", "support width, edges");
+  printField("RockingCompliance", "rocking compliance, rad/(N m)");
+  printField("PeakBytes", "peak bytes");
+  for (const std::string& warning : fieldStrings(surface, "Warnings")) printRow("warning", warning);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& program) {
+  auto path = std::make_shared<std::string>();
+  CLI::App* command =
+      program.add_subcommand("info", "What a surface or model is, and whether it is sound");
+  command->add_option("input", *path, "A .vtp, .stl, .obj, .ply or .off file")->required();
+  command->callback([path] {
+    const auto surface = readSurface(*path);
+    printSurface(surface);
+    printProblem(surface);
+  });
+}
+
+}  // namespace palpate::app

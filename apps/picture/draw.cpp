@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The drawing library: VTK's rendering lives here and nowhere else.
+
+#include <vtkActor.h>
+#include <vtkArrowSource.h>
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDataArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExtractEdges.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkWarpVector.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "picture/colour_map.h"
+#include "picture/picture.h"
+#include "picture/virtual_display.h"
+
+namespace palpate::app {
+namespace {
+
+constexpr double kInk[3] = {0.13, 0.13, 0.16}, kPaper[3] = {1, 1, 1};
+constexpr double kFree[3] = {0.87, 0.73, 0.62}, kFixed[3] = {0.38, 0.44, 0.55};
+
+vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
+  vtkNew<vtkPolyData> shape;
+  shape->CopyStructure(view.surface);
+  for (const std::string& name : {view.colourBy, std::string("BoundaryType")})
+    if (vtkDataArray* array = view.surface->GetPointData()->GetArray(name.c_str()))
+      shape->GetPointData()->AddArray(array);
+  if (!view.deformed) return shape;
+  shape->GetPointData()->SetVectors(view.surface->GetPointData()->GetArray("Displacement"));
+  vtkNew<vtkWarpVector> warp;
+  warp->SetInputData(shape);
+  warp->Update();
+  return vtkPolyData::SafeDownCast(warp->GetOutput());
+}
+
+/// Colours and their range for a view: an array by viridis, or fixed against free.
+vtkSmartPointer<vtkColorTransferFunction> coloursOf(const View& view, vtkDataArray* array) {
+  vtkNew<vtkColorTransferFunction> colours;
+  if (view.colourBy.empty()) {
+    colours->AddRGBPoint(0, kFree[0], kFree[1], kFree[2]);
+    colours->AddRGBPoint(1, kFixed[0], kFixed[1], kFixed[2]);
+    return colours;
+  }
+  double range[2] = {0, 1};
+  if (view.range)
+    std::copy_n(view.range->data(), 2, range);
+  else
+    array->GetRange(range, array->GetNumberOfComponents() > 1 ? -1 : 0);
+  if (!(range[1] > range[0])) range[1] = range[0] + 1e-12 + 1e-6 * std::abs(range[0]);
+  for (int i = 0; i < 9; ++i)
+    colours->AddRGBPoint(range[0] + (range[1] - range[0]) * i / 8, kViridis[i][0], kViridis[i][1],
+                         kViridis[i][2]);
+  if (array->GetNumberOfComponents() > 1) colours->SetVectorModeToMagnitude();
+  return colours;
+}
+
+void addSurface(vtkRenderer* renderer, const View& view) {
+  const vtkSmartPointer<vtkPolyData> shape = shapeOf(view);
+  const std::string name = view.colourBy.empty() ? "BoundaryType" : view.colourBy;
+  vtkDataArray* array = shape->GetPointData()->GetArray(name.c_str());
+  if (!array && !view.colourBy.empty())
+    throw std::runtime_error("there is no point array '" + view.colourBy + "' to colour by");
+
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(shape);
+  normals->SetFeatureAngle(50);
+  normals->ConsistencyOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeColor(0.25, 0.25, 0.28);
+  actor->GetProperty()->SetLineWidth(0.5);
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetDiffuse(0.75);
+  actor->GetProperty()->SetColor(const_cast<double*>(kFree));
+  renderer->AddActor(actor);
+  if (!array) return;
+  const auto colours = coloursOf(view, array);
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(name.c_str());
+  mapper->SetColorModeToMapScalars();  // bytes are values too, not colours
+  mapper->SetLookupTable(colours);
+  mapper->InterpolateScalarsBeforeMappingOn();
+  if (view.colourBy.empty()) return;
+
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(colours);
+  bar->SetTitle(view.barTitle.c_str());
+  bar->SetNumberOfLabels(5);
+  bar->SetLabelFormat("%.3g");
+  bar->SetVerticalTitleSeparation(12);
+  bar->UnconstrainedFontSizeOn();
+  bar->SetPosition(0.84, 0.12);
+  bar->SetWidth(0.1);
+  bar->SetHeight(0.72);
+  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+    text->SetColor(const_cast<double*>(kInk));
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+    text->SetFontSize(16);
+  }
+  renderer->AddActor2D(bar);
+}
+
+/// The edges of the undeformed surface, thin, for comparison.
+void addUndeformedEdges(vtkRenderer* renderer, const View& view) {
+  vtkNew<vtkPolyData> shape;
+  shape->CopyStructure(view.surface);
+  vtkNew<vtkExtractEdges> edges;
+  edges->SetInputData(shape);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(edges->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.6, 0.6, 0.65);
+  actor->GetProperty()->SetOpacity(0.5);
+  actor->GetProperty()->SetLineWidth(0.5);
+  actor->GetProperty()->LightingOff();
+  renderer->AddActor(actor);
+}
+
+void addTitle(vtkRenderer* renderer, const std::string& title) {
+  vtkNew<vtkTextActor> text;
+  text->SetInput(title.c_str());
+  text->GetTextProperty()->SetFontSize(20);
+  text->GetTextProperty()->SetColor(const_cast<double*>(kInk));
+  text->GetTextProperty()->SetJustificationToCentered();
+  text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  text->SetPosition(0.47, 0.93);
+  renderer->AddActor2D(text);
+}
+
+/// One camera for all views, so that they can be compared.
+vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
+  const double* bounds = picture.views.front().surface->GetBounds();
+  double centre[3], radius = 0;
+  for (int c = 0; c < 3; ++c) {
+    centre[c] = (bounds[2 * c] + bounds[2 * c + 1]) / 2;
+    radius += std::pow(bounds[2 * c + 1] - bounds[2 * c], 2) / 4;
+  }
+  radius = std::sqrt(radius);
+  const auto& d = picture.towardsViewer;
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  vtkNew<vtkCamera> camera;
+  camera->SetFocalPoint(centre);
+  camera->SetPosition(centre[0] + 4 * radius * d[0] / length,
+                      centre[1] + 4 * radius * d[1] / length,
+                      centre[2] + 4 * radius * d[2] / length);
+  const bool fromAbove = std::abs(d[2]) > 0.95 * length;
+  camera->SetViewUp(0, fromAbove ? 1 : 0, fromAbove ? 0 : 1);
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(radius * std::max(1.0, 1 / (0.8 * aspect)));
+  camera->SetClippingRange(0.5 * radius, 8 * radius);
+  return camera;
+}
+
+void writePng(vtkRenderWindow* window, const std::string& path) {
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  const std::string partial = path + ".part";
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(partial.c_str());
+  writer->SetInputConnection(image->GetOutputPort());
+  const vtkTypeBool display = vtkObject::GetGlobalWarningDisplay();
+  vtkObject::SetGlobalWarningDisplay(0);
+  writer->Write();
+  vtkObject::SetGlobalWarningDisplay(display);
+  if (writer->GetErrorCode() != vtkErrorCode::NoError ||
+      std::rename(partial.c_str(), path.c_str()) != 0) {
+    std::remove(partial.c_str());
+    throw std::runtime_error(path +
+                             ": the picture cannot be written: is the folder there and writable?");
+  }
+}
+
+void draw(const Picture& picture, const std::string& path) {
+  const VirtualDisplay display;
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(picture.width, picture.height);
+  const double count = static_cast<double>(picture.views.size());
+  const auto camera = cameraFor(picture, picture.width / count / picture.height);
+  for (std::size_t i = 0; i < picture.views.size(); ++i) {
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetViewport(i / count, 0, (i + 1) / count, 1);
+    renderer->SetBackground(const_cast<double*>(kPaper));
+    renderer->SetUseFXAA(true);
+    if (picture.views[i].deformed) addUndeformedEdges(renderer, picture.views[i]);
+    addSurface(renderer, picture.views[i]);
+    addTitle(renderer, picture.views[i].title);
+    renderer->SetActiveCamera(camera);
+    window->AddRenderer(renderer);
+  }
+  window->Render();
+  writePng(window, path);
+}
+
+}  // namespace
+}  // namespace palpate::app
+
+extern "C" __attribute__((visibility("default"))) std::string palpate_draw_picture(
+    const palpate::app::Picture& picture, const std::string& path) {
+  try {
+    palpate::app::draw(picture, path);
+    return {};
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+}

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace palpate::app {
+
+/// What one view of a picture shows.
+struct View {
+  vtkPolyData* surface;
+  std::string title;
+  std::string
+      colourBy;  ///< point array; vectors by their length. Empty: fixed against free vertices
+  std::string barTitle;
+  bool deformed = false;  ///< moved by the array Displacement, the undeformed edges drawn behind
+  std::optional<std::array<double, 2>> range;  ///< of the colours; the array's by default
+};
+
+/// Views side by side, seen along one direction.
+struct Picture {
+  std::vector<View> views;
+  std::array<double, 3> towardsViewer;  ///< direction from the object to the eye
+  int width = 1200, height = 600;
+};
+
+/// Draws a picture to a PNG file, whole or not at all. Loads the drawing library on first use.
+/// @throws std::runtime_error with a sentence if that cannot be done.
+void drawPicture(const Picture& picture, const std::string& path);
+
+/// Name of the function in the drawing library.
+constexpr const char* kDrawFunction = "palpate_draw_picture";
+/// @return an empty string, or what went wrong.
+using DrawFunction = std::string (*)(const Picture& picture, const std::string& path);
+
+/// A direction from which most of the free surface is seen.
+std::array<double, 3> directionOntoFreeSurface(vtkPolyData* surface);
+
+}  // namespace palpate::app

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+namespace palpate::app {
+
+/// An X display to draw on: the user's where there is one, else an Xvfb of our own that ends with
+/// this object.
+class VirtualDisplay {
+ public:
+  /// @throws std::runtime_error if there is neither a display nor Xvfb.
+  VirtualDisplay();
+  ~VirtualDisplay();
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+ private:
+  int server_ = -1;  ///< process number of Xvfb
+};
+
+}  // namespace palpate::app

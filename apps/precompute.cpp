@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <vtkBoundaryElementGreensFunctions.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkReferenceBoundaryConditions.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "commands.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+struct Options {
+  std::string input, output;
+  double young = std::nan(""), poisson = std::nan("");
+  std::string fixedArray;
+  std::vector<double> halfSpace, box, sphere;
+  std::string precision = "double", collocation = "averaged", domain = "interior";
+  double tolerance = 1e-6, smoothAngle = 30;
+  bool raw = false, patchColumns = false;
+  std::vector<vtkIdType> columns;
+  int threads = 0;
+};
+
+void addOptions(CLI::App& command, Options& o) {
+  command.add_option("input", o.input, "A closed triangle surface")->required();
+  command.add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
+      ->required();
+  command.add_option("--young", o.young, "Young's modulus, Pa; by default the file's");
+  command.add_option("--poisson", o.poisson,
+                     "Poisson's ratio, above -1 up to 0.5; by default the file's");
+  command
+      .add_option("--fix-array", o.fixedArray, "Fix vertices where this point array is not zero")
+      ->group("Support (by default the file's array BoundaryType)");
+  command.add_option("--fix-half-space", o.halfSpace, "Fix vertices behind a plane: point, normal")
+      ->expected(6)
+      ->group("Support (by default the file's array BoundaryType)");
+  command.add_option("--fix-box", o.box, "Fix vertices in a box: xmin xmax ymin ymax zmin zmax")
+      ->expected(6)
+      ->group("Support (by default the file's array BoundaryType)");
+  command.add_option("--fix-sphere", o.sphere, "Fix vertices in a ball: centre, radius")
+      ->expected(4)
+      ->group("Support (by default the file's array BoundaryType)");
+  command.add_option("--precision", o.precision, "double, mixed or float")
+      ->check(CLI::IsMember({"double", "mixed", "float"}))
+      ->capture_default_str();
+  command.add_option("--tolerance", o.tolerance, "Relative tolerance of the integration")
+      ->capture_default_str();
+  command.add_option("--collocation", o.collocation, "averaged, or vertex as in the paper")
+      ->check(CLI::IsMember({"averaged", "vertex"}))
+      ->capture_default_str();
+  command.add_option("--domain", o.domain, "Material inside the surface, or outside it")
+      ->check(CLI::IsMember({"interior", "exterior"}))
+      ->capture_default_str();
+  command
+      .add_option("--smooth-angle", o.smoothAngle, "Traction may jump at sharper edges, degrees")
+      ->capture_default_str();
+  command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions");
+  command.add_flag("--patch-columns", o.patchColumns,
+                   "Also responses to tractions on single patches of sharp edges");
+  command.add_flag("--raw", o.raw, "Do not symmetrise the compliance");
+  command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+}
+
+void setSupport(vtkReferenceBoundaryConditions* filter, const Options& o) {
+  filter->SetYoungsModulus(o.young);
+  filter->SetPoissonRatio(o.poisson);
+  filter->SetFixedArrayName(o.fixedArray.c_str());
+  if (!o.halfSpace.empty()) filter->AddFixedHalfSpace(o.halfSpace.data(), o.halfSpace.data() + 3);
+  if (!o.box.empty()) filter->AddFixedBox(o.box.data());
+  if (!o.sphere.empty()) filter->AddFixedSphere(o.sphere.data(), o.sphere[3]);
+}
+
+void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
+  filter->SetPrecision(o.precision == "mixed" ? 1 : o.precision == "float" ? 2 : 0);
+  filter->SetCollocation(o.collocation == "vertex");
+  filter->SetDomain(o.domain == "exterior");
+  filter->SetTolerance(o.tolerance);
+  filter->SetSmoothAngle(o.smoothAngle);
+  filter->SetReciprocal(!o.raw);
+  filter->SetPatchColumns(o.patchColumns);
+  filter->SetNumberOfThreads(o.threads);
+  if (o.columns.empty()) return;
+  vtkNew<vtkIdTypeArray> nodes;
+  for (vtkIdType node : o.columns) nodes->InsertNextValue(node);
+  filter->SetColumnNodes(nodes);
+}
+
+void printModel(vtkPolyData* model) {
+  vtkDataArray* nodes = model->GetFieldData()->GetArray("GreensFunctionNodes");
+  printRow("vertices", std::to_string(model->GetNumberOfPoints()));
+  printRow("Green's functions", std::to_string(nodes->GetNumberOfTuples()));
+  vtkDataArray* seconds = model->GetFieldData()->GetArray("StageSeconds");
+  const std::vector<std::string> stages = fieldStrings(model, "StageNames");
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    printRow("seconds to " + stages[i], number(seconds->GetComponent(i, 0), 3));
+  printRow("condition number", number(fieldNumber(model, "ConditionEstimate", -1), 3));
+  printRow("reciprocity defect", number(fieldNumber(model, "ReciprocityDefect", -1), 3));
+  printRow("integration defect", number(fieldNumber(model, "RotationDefect", -1), 3));
+  printRow("solver residual", number(fieldNumber(model, "SolverResidual", -1), 3));
+}
+
+}  // namespace
+
+void addPrecompute(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "precompute", "Compute the Green's functions of an elastic body from its surface");
+  addOptions(*command, *options);
+  command->footer(
+      "The reciprocity defect indicates the discretisation error; refine the surface to lower it.\n"
+      "  palpate precompute part.stl part.vtp --young 2e9 --poisson 0.35 \\\n"
+      "      --fix-half-space 0 0 0.001  0 0 1");
+  command->callback([options] {
+    vtkNew<vtkReferenceBoundaryConditions> conditions;
+    conditions->SetInputData(readSurface(options->input));
+    setSupport(conditions, *options);
+    vtkNew<vtkBoundaryElementGreensFunctions> bem;
+    bem->SetInputData(run(conditions));
+    setMethod(bem, *options);
+    const auto model = run(bem);
+    writeSurface(model, options->output);
+    printModel(model);
+    printWarnings(model);
+  });
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <vtkLoopRefinement.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands.h"
+#include "terminal.h"
+
+namespace palpate::app {
+
+void addRefine(CLI::App& program) {
+  struct Options {
+    std::string input, output;
+    int levels = 1;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("refine", "Subdivide a surface by Loop's scheme");
+  command->add_option("input", options->input, "A closed triangle surface")->required();
+  command->add_option("output", options->output, "The finer surface, .vtp")->required();
+  command->add_option("--levels", options->levels, "How often every triangle is split in four")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  command->footer(
+      "The surface becomes smooth; a new vertex is fixed if both ends of its edge are.\n"
+      "  palpate refine data/kidney.vtp kidney.vtp --levels 2");
+  command->callback([options] {
+    vtkNew<vtkLoopRefinement> filter;
+    filter->SetInputData(readSurface(options->input));
+    filter->SetNumberOfLevels(options->levels);
+    const auto fine = run(filter);
+    printRow("vertices", std::to_string(fine->GetNumberOfPoints()));
+    printRow("triangles", std::to_string(fine->GetNumberOfCells()));
+    writeSurface(fine, options->output);
+  });
+}
+
+}  // namespace palpate::app

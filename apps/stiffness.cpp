@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSurfaceStiffness.h>
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "commands.h"
+#include "picture/picture.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+struct Options {
+  std::string input, output;
+  MaskOptions mask;
+  PictureOptions picture;
+};
+
+/// The norms of the free vertices' stiffness.
+std::vector<double> freeNorms(vtkPolyData* surface) {
+  vtkDataArray* norm = surface->GetPointData()->GetArray("StiffnessNorm");
+  vtkDataArray* types = surface->GetPointData()->GetArray("BoundaryType");
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < norm->GetNumberOfTuples(); ++i)
+    if (types->GetComponent(i, 0) == 0) values.push_back(norm->GetComponent(i, 0));
+  return values;
+}
+
+/// From the 2nd to the 98th percentile, so that a few vertices by the support do not set the
+/// colours.
+std::array<double, 2> commonRange(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double part) {
+    return values[static_cast<std::size_t>(part * (values.size() - 1))];
+  };
+  return {at(0.02), at(0.98)};
+}
+
+void printSpread(const std::vector<double>& values) {
+  double mean = 0, square = 0;
+  for (double v : values) mean += v / values.size();
+  for (double v : values) square += (v - mean) * (v - mean) / values.size();
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  printRow("free vertices", std::to_string(values.size()));
+  printRow("|K| smallest, N/m", number(*low));
+  printRow("|K| mean, N/m", number(mean));
+  printRow("|K| largest, N/m", number(*high));
+  printRow("coefficient of variation", number(std::sqrt(square) / mean, 3));
+}
+
+void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const MaskOptions& mask) {
+  Picture picture;
+  picture.width = 800;
+  picture.towardsViewer = options.towardsViewer(surface);
+  const bool masked = mask.radius > 0 || mask.radiusEdges > 0;
+  View view{surface,
+            masked ? "stiffness under a " + mask.mask + " mask" : "single-vertex stiffness",
+            "StiffnessNorm",
+            "norm of K\n(N/m)",
+            false,
+            {}};
+  view.range = options.range.size() == 2 ? std::array<double, 2>{options.range[0], options.range[1]}
+                                         : commonRange(freeNorms(surface));
+  picture.views = {view};
+  drawPicture(picture, options.path);
+}
+
+}  // namespace
+
+void addStiffness(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "stiffness", "The stiffness that a point-like contact feels everywhere");
+  command->add_option("input", options->input, "A model from `palpate precompute`")->required();
+  command->add_option("output", options->output, "The model with its stiffness fields, .vtp");
+  options->mask.addTo(*command);
+  options->picture.addTo(*command, "the norm of the stiffness");
+  command->footer(
+      "Without a mask the field shows the mesh as much as the material.\n"
+      "  palpate stiffness model.vtp field.vtp --radius-edges 2 --image field.png");
+  command->callback([options] {
+    vtkNew<vtkSurfaceStiffness> filter;
+    filter->SetInputData(readSurface(options->input));
+    options->mask.applyTo(filter);
+    filter->SetRigidStiffness(options->mask.rigidStiffness);
+    const auto field = run(filter);
+    if (!options->output.empty()) writeSurface(field, options->output);
+    if (!options->picture.path.empty()) drawStiffness(field, options->picture, options->mask);
+    printSpread(freeNorms(field));
+  });
+}
+
+}  // namespace palpate::app

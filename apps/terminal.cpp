@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "terminal.h"
+
+#include <unistd.h>
+#include <vtkCallbackCommand.h>
+#include <vtkDataArray.h>
+#include <vtkElasticSurfaceReader.h>
+#include <vtkElasticSurfaceWriter.h>
+#include <vtkElastostaticAlgorithm.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkMaskedContactAlgorithm.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "picture/picture.h"
+
+namespace palpate::app {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+bool barUnderWay = false;
+
+void silence(vtkObject* object) {
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  object->AddObserver(vtkCommand::ErrorEvent, nothing);
+}
+
+void drawBar(double fraction, const char* stage) {
+  constexpr int width = 40;
+  const int done = static_cast<int>(std::lround(width * fraction));
+  std::cerr << "\r" << std::left << std::setw(10) << (stage ? stage : "") << " ["
+            << std::string(done, '#') << std::string(width - done, '.') << "] " << std::right
+            << std::setw(3) << std::lround(100 * fraction) << " %" << std::flush;
+  barUnderWay = true;
+}
+
+void onProgress(vtkObject* caller, unsigned long, void*, void*) {
+  auto* filter = static_cast<vtkPolyDataAlgorithm*>(caller);
+  if (interrupted) filter->SetAbortExecute(1);
+  if (isatty(STDERR_FILENO)) drawBar(filter->GetProgress(), filter->GetProgressText());
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> readSurface(const std::string& path) {
+  vtkNew<vtkElasticSurfaceReader> reader;
+  reader->SetFileName(path.c_str());
+  silence(reader);
+  silence(reader->GetExecutive());
+  reader->Update();
+  if (*reader->GetFailureMessage()) throw std::runtime_error(reader->GetFailureMessage());
+  return reader->GetOutput();
+}
+
+void writeSurface(vtkPolyData* surface, const std::string& path) {
+  vtkNew<vtkElasticSurfaceWriter> writer;
+  silence(writer);
+  if (!writer->Write(surface, path.c_str())) throw std::runtime_error(writer->GetFailureMessage());
+}
+
+vtkSmartPointer<vtkPolyData> run(vtkPolyDataAlgorithm* filter) {
+  silence(filter);
+  silence(filter->GetExecutive());
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(onProgress);
+  filter->AddObserver(vtkCommand::ProgressEvent, progress);
+  filter->Update();
+  endProgressBar();
+  if (interrupted) throw std::runtime_error("interrupted; nothing was written");
+  const auto* elastostatic = vtkElastostaticAlgorithm::SafeDownCast(filter);
+  if (elastostatic && *elastostatic->GetFailureMessage())
+    throw std::runtime_error(elastostatic->GetFailureMessage());
+  return filter->GetOutput();
+}
+
+void catchInterrupts() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void endProgressBar() {
+  if (barUnderWay) std::cerr << std::endl;
+  barUnderWay = false;
+}
+
+void printRow(const std::string& label, const std::string& value) {
+  std::cout << std::left << std::setw(28) << label << value << "\n";
+}
+
+std::string number(double value, int digits) {
+  std::ostringstream text;
+  text << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string vectorText(const double* v) {
+  return number(v[0]) + "  " + number(v[1]) + "  " + number(v[2]);
+}
+
+double fieldNumber(vtkPolyData* surface, const char* name, double fallback) {
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfValues() > 0 ? array->GetComponent(0, 0) : fallback;
+}
+
+std::vector<std::string> fieldStrings(vtkPolyData* surface, const char* name) {
+  std::vector<std::string> values;
+  auto* array = vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray(name));
+  for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
+    values.push_back(array->GetValue(i));
+  return values;
+}
+
+std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name) {
+  std::array<double, 3> value{0, 0, 0};
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  if (array && array->GetNumberOfComponents() == 3) array->GetTuple(0, value.data());
+  return value;
+}
+
+void printWarnings(vtkPolyData* surface) {
+  for (const std::string& warning : fieldStrings(surface, "Warnings"))
+    std::cerr << "palpate: warning: " << warning << "\n";
+}
+
+void MaskOptions::addTo(CLI::App& command) {
+  auto* length =
+      command.add_option("--radius", radius,
+                         "Radius of the pressure mask, in the unit of the points; without "
+                         "it the load goes to single vertices");
+  auto* edges = command.add_option("--radius-edges", radiusEdges,
+                                   "The radius as a multiple of the mean edge length");
+  length->excludes(edges);
+  command
+      .add_option("--mask", mask,
+                  "How the pressure falls with distance: linear, uniform, gaussian or hertzian")
+      ->check(CLI::IsMember({"linear", "uniform", "gaussian", "hertzian"}))
+      ->capture_default_str();
+  command.add_option("--rigid-stiffness", rigidStiffness,
+                     "Stiffness of fixed vertices and largest stiffness shown, N/m; 0 for the "
+                     "stiffest free vertex");
+}
+
+void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {
+  const std::vector<std::string> names{"linear", "uniform", "gaussian", "hertzian"};
+  filter->SetMask(static_cast<int>(std::find(names.begin(), names.end(), mask) - names.begin()));
+  filter->SetRadiusInEdgeLengths(radiusEdges != 0);
+  filter->SetRadius(radiusEdges != 0 ? radiusEdges : radius);
+}
+
+void PictureOptions::addTo(CLI::App& command, const std::string& what) {
+  command.add_option("--image", path, "Draw " + what + " to this PNG file; needs no display");
+  command
+      .add_option("--view", view,
+                  "Direction from the object to the eye, three numbers; by default onto the free "
+                  "surface")
+      ->expected(3);
+  command.add_option("--range", range, "Smallest and largest value of the colours")->expected(2);
+}
+
+std::array<double, 3> PictureOptions::towardsViewer(vtkPolyData* surface) const {
+  if (view.size() == 3) return {view[0], view[1], view[2]};
+  return directionOntoFreeSurface(surface);
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+class vtkMaskedContactAlgorithm;
+class vtkPolyData;
+class vtkPolyDataAlgorithm;
+
+/// What the subcommands share: files, progress, numbers on the terminal.
+namespace palpate::app {
+
+/// @throws std::runtime_error with the reader's sentence.
+vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
+/// @throws std::runtime_error with the writer's sentence.
+void writeSurface(vtkPolyData* surface, const std::string& path);
+
+/// Updates a filter, with a progress bar where stderr is a terminal. Ctrl-C aborts it.
+/// @throws std::runtime_error with the filter's sentence, or that it was interrupted.
+vtkSmartPointer<vtkPolyData> run(vtkPolyDataAlgorithm* filter);
+
+/// Turns Ctrl-C and termination into an abort that leaves nothing half done.
+void catchInterrupts();
+/// Ends the line of a progress bar that was under way.
+void endProgressBar();
+
+/// "label   value" lines for people, on stdout.
+void printRow(const std::string& label, const std::string& value);
+std::string number(double value, int digits = 4);
+std::string vectorText(const double* components);
+
+/// A one-tuple field array, or a fallback.
+double fieldNumber(vtkPolyData* surface, const char* name, double fallback);
+std::vector<std::string> fieldStrings(vtkPolyData* surface, const char* name);
+/// A three-component field tuple.
+std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name);
+
+/// Prints the warnings that a model carries, on stderr.
+void printWarnings(vtkPolyData* surface);
+
+/// Mask options of a subcommand and their way into a filter.
+struct MaskOptions {
+  std::string mask = "linear";
+  double radius = 0, radiusEdges = 0, rigidStiffness = 0;
+  void addTo(CLI::App& command);
+  void applyTo(vtkMaskedContactAlgorithm* filter) const;
+};
+
+/// Picture options of a subcommand.
+struct PictureOptions {
+  std::string path;
+  std::vector<double> view, range;
+  void addTo(CLI::App& command, const std::string& what);
+  std::array<double, 3> towardsViewer(vtkPolyData* surface) const;
+};
+
+}  // namespace palpate::app

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef palpate_array_names_h
+#define palpate_array_names_h
+
+/// The names of all arrays that Palpate reads and writes, with their place, type and unit. Lengths are
+/// in the unit of the points (SI: metres), pressures in that of Young's modulus (SI: pascals).
+namespace palpate::arrays
+{
+// Point data.
+constexpr const char* BoundaryType = "BoundaryType"; // uint8: 0 free, 1 fixed
+constexpr const char* VertexArea = "VertexArea";     // m^2
+constexpr const char* Displacement = "Displacement"; // 3, m
+constexpr const char* Traction = "Traction";         // 3, Pa
+constexpr const char* PressureMask = "PressureMask"; // 1/m^2
+constexpr const char* Stiffness = "Stiffness";       // 9, row by row, N/m
+constexpr const char* StiffnessNorm = "StiffnessNorm";           // Frobenius, N/m
+constexpr const char* StiffnessAsymmetry = "StiffnessAsymmetry"; // before symmetrising, relative
+constexpr const char* HapticRatio = "HapticRatio";               // |K^H| / |K^E|
+
+// Cell data.
+constexpr const char* SmoothPatch = "SmoothPatch"; // int, traction may jump between patches
+
+// Field data: material and reference problem.
+constexpr const char* YoungsModulus = "YoungsModulus"; // Pa
+constexpr const char* PoissonRatio = "PoissonRatio";
+
+// Field data: Green's functions.
+/// 3 #points components a tuple, one tuple a column of Xi (three a node of GreensFunctionNodes); rows
+/// are metres where free, pascals where fixed, per pascal of a free or metre of a fixed column.
+constexpr const char* GreensFunctions = "GreensFunctions"; // double or float
+constexpr const char* GreensFunctionNodes = "GreensFunctionNodes"; // id
+/// The same for tractions on single patches of vertices on sharp edges, and (node, patch) of each.
+constexpr const char* PatchGreensFunctions = "PatchGreensFunctions";
+constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 2, id
+/// Young's modulus that the stored functions were computed with; YoungsModulus scales what is served.
+constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
+constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
+constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // "interior" or "exterior"
+constexpr const char* GreensFunctionsReciprocal = "GreensFunctionsReciprocal"; // uint8
+constexpr const char* MeshFingerprint = "MeshFingerprint";                     // uint64
+
+// Field data: diagnostics of the Green's functions (see palpate::Diagnostics), -1 for not measured.
+constexpr const char* ConditionEstimate = "ConditionEstimate";
+constexpr const char* ReciprocityDefect = "ReciprocityDefect";
+constexpr const char* RotationDefect = "RotationDefect";
+constexpr const char* SolverResidual = "SolverResidual";
+constexpr const char* IntegrationTolerance = "IntegrationTolerance";
+constexpr const char* WallRatio = "WallRatio";
+constexpr const char* SupportWidth = "SupportWidth";
+constexpr const char* RockingCompliance = "RockingCompliance"; // rad/(N m)
+constexpr const char* PeakBytes = "PeakBytes";
+constexpr const char* StageSeconds = "StageSeconds"; // one tuple a stage
+constexpr const char* StageNames = "StageNames";     // strings
+constexpr const char* Warnings = "Warnings";         // strings
+constexpr const char* RepairChanges = "RepairChanges"; // strings
+
+// Field data: contacts.
+constexpr const char* ContactForce = "ContactForce";   // 3 a zone, on the body, N
+constexpr const char* ContactTorque = "ContactTorque"; // 3 a zone, about the zone's centroid, N m
+constexpr const char* ContactCondition = "ContactCondition"; // of the capacitance matrix
+constexpr const char* ContactPoint = "ContactPoint";               // 3, x^C of [JP01] fig. 8, m
+constexpr const char* ElasticContactPoint = "ElasticContactPoint"; // 3, x^E, m
+constexpr const char* HapticContactPoint = "HapticContactPoint";   // 3, x^H, m
+
+// Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
+constexpr const char* Node = "Node";           // id
+constexpr const char* Direction = "Direction"; // 3, optional: only this component
+constexpr const char* Zone = "Zone";           // int, optional: whose force it counts to
+} // namespace palpate::arrays
+
+#endif

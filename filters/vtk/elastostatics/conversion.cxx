@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "conversion.h"
+
+#include "array_names.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <limits>
+#include <stdexcept>
+
+namespace palpate::convert
+{
+namespace
+{
+/// VTK's ids as the core's indices; what cannot be one becomes -1, which validation names.
+int indexOf(vtkIdType id)
+{
+  return id >= 0 && id <= std::numeric_limits<int>::max() ? static_cast<int>(id) : -1;
+}
+
+vtkFieldData* fieldsOf(vtkDataObject* data)
+{
+  if (!data->GetFieldData())
+  {
+    vtkNew<vtkFieldData> fields;
+    data->SetFieldData(fields);
+  }
+  return data->GetFieldData();
+}
+
+void requireIndexable(vtkPolyData* surface)
+{
+  if (surface->GetNumberOfPoints() > std::numeric_limits<int>::max() / 9 ||
+    surface->GetNumberOfCells() > std::numeric_limits<int>::max() / 9)
+  {
+    throw std::invalid_argument("the surface has too many points or cells");
+  }
+}
+} // namespace
+
+Eigen::Matrix3Xd pointsOf(vtkPolyData* surface)
+{
+  requireIndexable(surface);
+  Eigen::Matrix3Xd points(3, surface->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    surface->GetPoint(i, points.col(i).data());
+  }
+  return points;
+}
+
+Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface)
+{
+  requireIndexable(surface);
+  vtkCellArray* polys = surface->GetPolys();
+  const vtkIdType others = surface->GetNumberOfCells() - surface->GetNumberOfPolys();
+  if (others > 0)
+  {
+    throw std::invalid_argument("the surface has " + std::to_string(others) +
+      " vertex, line or strip cells: only triangles are allowed (vtkElasticMeshRepair or "
+      "vtkTriangleFilter makes them)");
+  }
+  Eigen::Matrix3Xi triangles(3, surface->GetNumberOfPolys());
+  auto cell = vtkSmartPointer<vtkCellArrayIterator>::Take(polys->NewIterator());
+  for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
+  {
+    const vtkIdType* ids;
+    vtkIdType count;
+    cell->GetCurrentCell(count, ids);
+    if (count != 3)
+    {
+      throw std::invalid_argument("cell " + std::to_string(cell->GetCurrentCellId()) + " has " +
+        std::to_string(count) + " corners: only triangles are allowed (vtkElasticMeshRepair or "
+                                "vtkTriangleFilter makes them)");
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      triangles(k, cell->GetCurrentCellId()) = indexOf(ids[k]);
+    }
+  }
+  return triangles;
+}
+
+Eigen::Matrix3Xi triangulatedCellsOf(vtkPolyData* surface)
+{
+  requireIndexable(surface);
+  std::vector<Eigen::Vector3i> triangles;
+  const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c)
+  { triangles.emplace_back(indexOf(a), indexOf(b), indexOf(c)); };
+  const auto forEachCell = [&](vtkCellArray* cells, auto&& action)
+  {
+    auto cell = vtkSmartPointer<vtkCellArrayIterator>::Take(cells->NewIterator());
+    for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
+    {
+      const vtkIdType* ids;
+      vtkIdType count;
+      cell->GetCurrentCell(count, ids);
+      action(ids, count);
+    }
+  };
+  forEachCell(surface->GetPolys(),
+    [&](const vtkIdType* ids, vtkIdType count)
+    {
+      for (vtkIdType k = 2; k < count; ++k)
+      {
+        add(ids[0], ids[k - 1], ids[k]);
+      }
+    });
+  forEachCell(surface->GetStrips(),
+    [&](const vtkIdType* ids, vtkIdType count)
+    {
+      for (vtkIdType k = 2; k < count; ++k)
+      {
+        k % 2 == 0 ? add(ids[k - 2], ids[k - 1], ids[k]) : add(ids[k - 1], ids[k - 2], ids[k]);
+      }
+    });
+  Eigen::Matrix3Xi result(3, triangles.size());
+  for (std::size_t f = 0; f < triangles.size(); ++f)
+  {
+    result.col(f) = triangles[f];
+  }
+  return result;
+}
+
+void setSurface(
+  vtkPolyData* surface, const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles)
+{
+  vtkNew<vtkPoints> vtkpoints;
+  vtkpoints->SetDataTypeToDouble();
+  vtkpoints->SetNumberOfPoints(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+  {
+    vtkpoints->SetPoint(i, points.col(i).data());
+  }
+  vtkNew<vtkCellArray> polys;
+  polys->AllocateExact(triangles.cols(), 3 * triangles.cols());
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
+  {
+    const vtkIdType ids[3] = { triangles(0, f), triangles(1, f), triangles(2, f) };
+    polys->InsertNextCell(3, ids);
+  }
+  surface->SetPoints(vtkpoints);
+  surface->SetVerts(nullptr);
+  surface->SetLines(nullptr);
+  surface->SetStrips(nullptr);
+  surface->SetPolys(polys);
+}
+
+bool hasField(vtkDataObject* data, const char* name)
+{
+  return data->GetFieldData() && data->GetFieldData()->GetAbstractArray(name);
+}
+
+double fieldNumber(vtkDataObject* data, const char* name, const std::string& cure)
+{
+  vtkDataArray* array = data->GetFieldData() ? data->GetFieldData()->GetArray(name) : nullptr;
+  if (!array || array->GetNumberOfValues() < 1)
+  {
+    throw std::invalid_argument(
+      "the surface carries no field data '" + std::string(name) + "': " + cure);
+  }
+  return array->GetComponent(0, 0);
+}
+
+void setFieldNumber(vtkDataObject* data, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fieldsOf(data)->AddArray(array);
+}
+
+void setFieldVector(vtkDataObject* data, const char* name, const Eigen::Vector3d& value)
+{
+  setFieldVectors(data, name, value);
+}
+
+void setFieldVectors(vtkDataObject* data, const char* name, const Eigen::Matrix3Xd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  for (Eigen::Index i = 0; i < values.cols(); ++i)
+  {
+    array->InsertNextTuple(values.col(i).data());
+  }
+  fieldsOf(data)->AddArray(array);
+}
+
+void setFieldStrings(
+  vtkDataObject* data, const char* name, const std::vector<std::string>& values)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  fieldsOf(data)->AddArray(array);
+}
+
+std::string fieldString(vtkDataObject* data, const char* name)
+{
+  vtkStringArray* array = data->GetFieldData()
+    ? vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name))
+    : nullptr;
+  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : std::string();
+}
+
+void setPointVectors(vtkPolyData* surface, const char* name, const Eigen::Matrix3Xd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(values.cols());
+  Eigen::Map<Eigen::Matrix3Xd>(array->GetPointer(0), 3, values.cols()) = values;
+  surface->GetPointData()->AddArray(array);
+}
+
+void setPointNumbers(vtkPolyData* surface, const char* name, const Eigen::VectorXd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(values.size());
+  Eigen::Map<Eigen::VectorXd>(array->GetPointer(0), values.size()) = values;
+  surface->GetPointData()->AddArray(array);
+}
+
+std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional)
+{
+  const vtkIdType count = surface->GetNumberOfPoints();
+  vtkDataArray* array = surface->GetPointData()->GetArray(arrays::BoundaryType);
+  if (!array && optional)
+  {
+    return std::vector<unsigned char>(count, 0);
+  }
+  if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument(std::string("the surface has no point array '") +
+      arrays::BoundaryType + "' with a value a point: vtkReferenceBoundaryConditions makes it");
+  }
+  std::vector<unsigned char> types;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    if (value != 0 && value != 1)
+    {
+      throw std::invalid_argument("the boundary type of node " + std::to_string(i) +
+        " must be 0 (free) or 1 (fixed), not " + std::to_string(value));
+    }
+    types.push_back(static_cast<unsigned char>(value));
+  }
+  return types;
+}
+
+void setBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>& types)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(arrays::BoundaryType);
+  for (unsigned char type : types)
+  {
+    array->InsertNextValue(type);
+  }
+  surface->GetPointData()->AddArray(array);
+}
+
+void removeGreensFunctions(vtkDataObject* data)
+{
+  for (const char* name : { arrays::GreensFunctions, arrays::GreensFunctionNodes,
+         arrays::PatchGreensFunctions, arrays::PatchGreensFunctionNodes,
+         arrays::GreensFunctionYoungsModulus, arrays::GreensFunctionSource,
+         arrays::GreensFunctionDomain, arrays::GreensFunctionsReciprocal, arrays::MeshFingerprint,
+         arrays::ConditionEstimate, arrays::ReciprocityDefect, arrays::RotationDefect,
+         arrays::SolverResidual, arrays::IntegrationTolerance, arrays::WallRatio,
+         arrays::SupportWidth, arrays::RockingCompliance, arrays::PeakBytes, arrays::StageSeconds,
+         arrays::StageNames, arrays::Warnings })
+  {
+    fieldsOf(data)->RemoveArray(name);
+  }
+}
+} // namespace palpate::convert

@@ -1,0 +1,344 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "model_arrays.h"
+
+#include "array_names.h"
+#include "conversion.h"
+#include "greens/dense_greens_functions.h"
+#include "mesh/mesh_defects.h"
+#include "mesh/smooth_patches.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTypeUInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstring>
+#include <stdexcept>
+
+namespace palpate::convert
+{
+namespace
+{
+/// The SmoothPatch array, or an empty vector.
+Eigen::VectorXi storedPatches(vtkPolyData* surface)
+{
+  vtkDataArray* array = surface->GetCellData()->GetArray(arrays::SmoothPatch);
+  if (!array)
+  {
+    return {};
+  }
+  if (array->GetNumberOfTuples() != surface->GetNumberOfCells() ||
+    array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument(
+      std::string("the cell array '") + arrays::SmoothPatch + "' must hold a number a cell");
+  }
+  Eigen::VectorXi patches(array->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < patches.size(); ++i)
+  {
+    patches[i] = static_cast<int>(array->GetComponent(i, 0));
+  }
+  return patches;
+}
+
+Material materialOf(vtkPolyData* surface)
+{
+  const std::string cure = "give the material with vtkReferenceBoundaryConditions";
+  return Material(fieldNumber(surface, arrays::YoungsModulus, cure),
+    fieldNumber(surface, arrays::PoissonRatio, cure));
+}
+
+template <class Array, class Scalar>
+void addMatrix(vtkPolyData* surface, const char* name, AlignedBuffer<Scalar> matrix, int rows)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(rows);
+  const vtkIdType size = static_cast<vtkIdType>(matrix.size());
+  array->SetArray(matrix.release(), size, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  surface->GetFieldData()->AddArray(array);
+}
+
+void addDiagnostics(vtkPolyData* surface, const Diagnostics& d)
+{
+  setFieldNumber(surface, arrays::ConditionEstimate, d.conditionEstimate);
+  setFieldNumber(surface, arrays::ReciprocityDefect, d.reciprocityDefect);
+  setFieldNumber(surface, arrays::RotationDefect, d.rotationDefect);
+  setFieldNumber(surface, arrays::SolverResidual, d.solverResidual);
+  setFieldNumber(surface, arrays::IntegrationTolerance, d.quadratureTolerance);
+  setFieldNumber(surface, arrays::WallRatio, d.wallRatio);
+  setFieldNumber(surface, arrays::SupportWidth, d.supportWidth);
+  setFieldNumber(surface, arrays::RockingCompliance, d.rockingCompliance);
+  setFieldNumber(surface, arrays::PeakBytes, static_cast<double>(d.peakBytes));
+  std::vector<std::string> names;
+  vtkNew<vtkDoubleArray> seconds;
+  seconds->SetName(arrays::StageSeconds);
+  for (const auto& [stage, time] : d.seconds)
+  {
+    names.push_back(stage);
+    seconds->InsertNextValue(time);
+  }
+  surface->GetFieldData()->AddArray(seconds);
+  setFieldStrings(surface, arrays::StageNames, names);
+  if (!d.warnings.empty())
+  {
+    setFieldStrings(surface, arrays::Warnings, d.warnings);
+  }
+}
+
+/// A column matrix of field data, checked.
+struct MatrixView
+{
+  vtkSmartPointer<vtkDataArray> array;
+  template <class Scalar>
+  const Scalar* data() const
+  {
+    return array ? static_cast<const Scalar*>(array->GetVoidPointer(0)) : nullptr;
+  }
+};
+
+template <class Scalar>
+bool allFinite(const MatrixView& view)
+{
+  return !view.array ||
+    Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>(
+      view.data<Scalar>(), view.array->GetNumberOfValues())
+      .isFinite()
+      .all();
+}
+
+MatrixView matrixOf(vtkPolyData* surface, const char* name, vtkIdType columns)
+{
+  MatrixView view{ surface->GetFieldData()->GetArray(name) };
+  if (columns == 0 && !view.array)
+  {
+    return view;
+  }
+  const vtkIdType rows = 3 * surface->GetNumberOfPoints();
+  if (!view.array || view.array->GetNumberOfComponents() != rows ||
+    view.array->GetNumberOfTuples() != 3 * columns)
+  {
+    throw std::invalid_argument(std::string("the field array '") + name + "' must hold " +
+      std::to_string(rows) + " by " + std::to_string(3 * columns) +
+      " values for this surface: the surface has changed since its Green's functions were "
+      "computed; compute them again");
+  }
+  const bool isFloat = view.array->GetDataType() == VTK_FLOAT;
+  if (!view.array->HasStandardMemoryLayout() ||
+    (!isFloat && view.array->GetDataType() != VTK_DOUBLE))
+  {
+    throw std::invalid_argument(
+      std::string("the field array '") + name + "' must hold doubles or floats");
+  }
+  if (isFloat ? !allFinite<float>(view) : !allFinite<double>(view))
+  {
+    throw std::invalid_argument(
+      std::string("the field array '") + name + "' holds values that are not finite");
+  }
+  return view;
+}
+
+std::vector<int> columnNodesOf(vtkPolyData* surface)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::GreensFunctionNodes);
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument(
+      "the surface carries no Green's functions: compute them with "
+      "vtkBoundaryElementGreensFunctions (palpate precompute)");
+  }
+  std::vector<int> nodes;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    nodes.push_back(static_cast<int>(array->GetComponent(i, 0)));
+  }
+  return nodes;
+}
+
+std::vector<PatchColumn> patchColumnsOf(vtkPolyData* surface)
+{
+  std::vector<PatchColumn> columns;
+  vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::PatchGreensFunctionNodes);
+  for (vtkIdType i = 0; array && array->GetNumberOfComponents() == 2 && i < array->GetNumberOfTuples();
+       ++i)
+  {
+    const int node = static_cast<int>(array->GetComponent(i, 0));
+    if (node < 0 || node >= surface->GetNumberOfPoints())
+    {
+      throw std::invalid_argument("patch column " + std::to_string(i) + " belongs to node " +
+        std::to_string(node) + ", which does not exist");
+    }
+    columns.push_back({ node, static_cast<int>(array->GetComponent(i, 1)) });
+  }
+  return columns;
+}
+
+void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
+{
+  // Readers give any of the 64-bit integer classes.
+  vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::MeshFingerprint);
+  std::uint64_t stored = 0;
+  const bool usable = array && array->GetNumberOfValues() == 1 &&
+    array->GetDataTypeSize() == sizeof stored && array->HasStandardMemoryLayout();
+  if (usable)
+  {
+    std::memcpy(&stored, array->GetVoidPointer(0), sizeof stored);
+  }
+  if (!usable || stored != expected)
+  {
+    throw std::invalid_argument(
+      "the Green's functions are stale: points, triangles, boundary types, smooth patches or "
+      "Poisson's ratio have changed since they were computed; compute them again");
+  }
+}
+
+Domain domainOf(vtkPolyData* surface)
+{
+  return fieldString(surface, arrays::GreensFunctionDomain) == "exterior" ? Domain::Exterior
+                                                                          : Domain::Interior;
+}
+} // namespace
+
+std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface)
+{
+  auto mesh = std::make_shared<const SurfaceMesh>(pointsOf(surface), trianglesOf(surface));
+  requireNoDefect(findSelfIntersections(*mesh, 1));
+  return mesh;
+}
+
+ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
+{
+  const auto mesh = soundMeshOf(surface);
+  Eigen::VectorXi patches = storedPatches(surface);
+  if (patches.size() == 0)
+  {
+    patches = findSmoothPatches(*mesh, smoothAngle);
+  }
+  const bool exterior = domain == Domain::Exterior;
+  return ElasticModel(mesh, materialOf(surface),
+    BoundaryConditions(boundaryTypesOf(surface, exterior)), std::move(patches), domain);
+}
+
+void setGreensFunctions(
+  vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result)
+{
+  removeGreensFunctions(surface);
+  const GreensFunctionsInfo& info = result.info;
+  const int rows = 3 * model.mesh().vertexCount();
+  if (result.floatMatrix.size() > 0)
+  {
+    addMatrix<vtkFloatArray>(surface, arrays::GreensFunctions, std::move(result.floatMatrix), rows);
+  }
+  else
+  {
+    addMatrix<vtkDoubleArray>(surface, arrays::GreensFunctions, std::move(result.matrix), rows);
+  }
+  vtkNew<vtkIdTypeArray> nodes;
+  nodes->SetName(arrays::GreensFunctionNodes);
+  for (int node : info.columnNodes)
+  {
+    nodes->InsertNextValue(node);
+  }
+  surface->GetFieldData()->AddArray(nodes);
+  if (!info.patchColumns.empty())
+  {
+    if (result.floatPatchMatrix.size() > 0)
+    {
+      addMatrix<vtkFloatArray>(
+        surface, arrays::PatchGreensFunctions, std::move(result.floatPatchMatrix), rows);
+    }
+    else
+    {
+      addMatrix<vtkDoubleArray>(
+        surface, arrays::PatchGreensFunctions, std::move(result.patchMatrix), rows);
+    }
+    vtkNew<vtkIdTypeArray> patchNodes;
+    patchNodes->SetName(arrays::PatchGreensFunctionNodes);
+    patchNodes->SetNumberOfComponents(2);
+    for (const PatchColumn& column : info.patchColumns)
+    {
+      const vtkIdType tuple[2] = { column.node, column.patch };
+      patchNodes->InsertNextTypedTuple(tuple);
+    }
+    surface->GetFieldData()->AddArray(patchNodes);
+  }
+  vtkNew<vtkTypeUInt64Array> fingerprint;
+  fingerprint->SetName(arrays::MeshFingerprint);
+  fingerprint->InsertNextValue(info.fingerprint);
+  surface->GetFieldData()->AddArray(fingerprint);
+  vtkNew<vtkUnsignedCharArray> reciprocal;
+  reciprocal->SetName(arrays::GreensFunctionsReciprocal);
+  reciprocal->InsertNextValue(info.reciprocal);
+  surface->GetFieldData()->AddArray(reciprocal);
+  setFieldNumber(
+    surface, arrays::GreensFunctionYoungsModulus, info.material.youngsModulus());
+  setFieldStrings(surface, arrays::GreensFunctionSource, { info.source });
+  setFieldStrings(surface, arrays::GreensFunctionDomain,
+    { info.domain == Domain::Exterior ? "exterior" : "interior" });
+  addDiagnostics(surface, info.diagnostics);
+
+  setBoundaryTypes(surface, model.conditions().types());
+  setPointNumbers(surface, arrays::VertexArea, info.vertexAreas);
+  vtkNew<vtkIntArray> patches;
+  patches->SetName(arrays::SmoothPatch);
+  for (int patch : model.smoothPatches())
+  {
+    patches->InsertNextValue(patch);
+  }
+  surface->GetCellData()->AddArray(patches);
+}
+
+ServedModel servedModelOf(vtkPolyData* surface)
+{
+  ServedModel served;
+  GreensFunctionsInfo info;
+  info.columnNodes = columnNodesOf(surface);
+  info.patchColumns = patchColumnsOf(surface);
+  const MatrixView matrix =
+    matrixOf(surface, arrays::GreensFunctions, static_cast<vtkIdType>(info.columnNodes.size()));
+  const MatrixView patchMatrix = matrixOf(
+    surface, arrays::PatchGreensFunctions, static_cast<vtkIdType>(info.patchColumns.size()));
+
+  served.mesh = std::make_shared<const SurfaceMesh>(pointsOf(surface), trianglesOf(surface));
+  served.smoothPatches = storedPatches(surface);
+  info.conditions = BoundaryConditions(boundaryTypesOf(surface, false));
+  const Material material = materialOf(surface);
+  info.material = Material(fieldNumber(surface, arrays::GreensFunctionYoungsModulus,
+                             "compute the Green's functions again"),
+    material.poissonRatio());
+  info.domain = domainOf(surface);
+  info.fingerprint = modelFingerprint(*served.mesh, info.conditions, served.smoothPatches,
+    material.poissonRatio(), info.domain);
+  requireFingerprint(surface, info.fingerprint);
+  info.vertexAreas = served.mesh->vertexAreas();
+  info.reciprocal =
+    fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
+  info.source = fieldString(surface, arrays::GreensFunctionSource);
+
+  auto keeper = std::make_shared<std::pair<MatrixView, MatrixView>>(matrix, patchMatrix);
+  std::shared_ptr<const GreensFunctions> stored;
+  if (matrix.array->GetDataType() == VTK_FLOAT)
+  {
+    stored = std::make_shared<DenseGreensFunctions<float>>(
+      std::move(info), matrix.data<float>(), patchMatrix.data<float>(), keeper);
+  }
+  else
+  {
+    stored = std::make_shared<DenseGreensFunctions<double>>(
+      std::move(info), matrix.data<double>(), patchMatrix.data<double>(), keeper);
+  }
+  served.greens = material.youngsModulus() == stored->info().material.youngsModulus()
+    ? stored
+    : stored->withYoungsModulus(material.youngsModulus());
+  return served;
+}
+} // namespace palpate::convert

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkBoundaryElementGreensFunctions.h"
+
+#include "model_arrays.h"
+
+#include "vtkIdTypeArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkBoundaryElementGreensFunctions);
+
+vtkBoundaryElementGreensFunctions::vtkBoundaryElementGreensFunctions() = default;
+vtkBoundaryElementGreensFunctions::~vtkBoundaryElementGreensFunctions() = default;
+
+void vtkBoundaryElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Precision: " << this->Precision << "\n"
+     << indent << "Collocation: " << this->Collocation << "\n"
+     << indent << "Domain: " << this->Domain << "\n"
+     << indent << "Tolerance: " << this->Tolerance << "\n"
+     << indent << "SmoothAngle: " << this->SmoothAngle << "\n"
+     << indent << "Reciprocal: " << this->Reciprocal << "\n"
+     << indent << "PatchColumns: " << this->PatchColumns << "\n"
+     << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+}
+
+void vtkBoundaryElementGreensFunctions::SetColumnNodes(vtkIdTypeArray* nodes)
+{
+  if (this->ColumnNodes != nodes)
+  {
+    this->ColumnNodes = nodes;
+    this->Modified();
+  }
+}
+
+vtkIdTypeArray* vtkBoundaryElementGreensFunctions::GetColumnNodes()
+{
+  return this->ColumnNodes;
+}
+
+vtkMTimeType vtkBoundaryElementGreensFunctions::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->ColumnNodes ? std::max(own, this->ColumnNodes->GetMTime()) : own;
+}
+
+void vtkBoundaryElementGreensFunctions::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
+{
+  const palpate::ElasticModel model = palpate::convert::modelOf(input, this->SmoothAngle,
+    this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+
+  palpate::BoundaryElementOptions options;
+  options.precision = static_cast<palpate::Precision>(this->Precision);
+  options.collocation =
+    this->Collocation == VERTEX ? palpate::Collocation::Vertex : palpate::Collocation::Averaged;
+  options.tolerance = this->Tolerance;
+  options.reciprocal = this->Reciprocal;
+  options.patchColumns = this->PatchColumns;
+  options.threads = this->NumberOfThreads;
+  for (vtkIdType i = 0; this->ColumnNodes && i < this->ColumnNodes->GetNumberOfValues(); ++i)
+  {
+    options.columns.push_back(static_cast<int>(this->ColumnNodes->GetValue(i)));
+  }
+  palpate::convert::setGreensFunctions(output, model,
+    palpate::computeBoundaryElementGreensFunctions(model, options,
+      [this](double fraction, const char* stage)
+      { return this->ReportProgress(fraction, stage); }));
+}

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkCapacitanceSolve.h"
+
+#include "array_names.h"
+#include "contact/capacitance_solver.h"
+#include "conversion.h"
+#include "model_arrays.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <map>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkCapacitanceSolve);
+
+namespace arrays = palpate::arrays;
+namespace convert = palpate::convert;
+
+/// A solver with its cache of inverses, and the input that it belongs to.
+struct vtkCapacitanceSolve::Prepared
+{
+  vtkPolyData* Input;
+  vtkMTimeType InputTime;
+  convert::ServedModel Served;
+  palpate::CapacitanceSolver Solver;
+};
+
+vtkCapacitanceSolve::vtkCapacitanceSolve()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkCapacitanceSolve::~vtkCapacitanceSolve() = default;
+
+void vtkCapacitanceSolve::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "TriangleTractionArrayName: " << this->TriangleTractionArrayName << "\n";
+}
+
+int vtkCapacitanceSolve::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+void vtkCapacitanceSolve::SetTriangleTractionArrayName(const char* name)
+{
+  this->TriangleTractionArrayName = name ? name : "";
+  this->Modified();
+}
+
+vtkCapacitanceSolve::Prepared& vtkCapacitanceSolve::Prepare(vtkPolyData* input)
+{
+  if (!this->Kept || this->Kept->Input != input || this->Kept->InputTime != input->GetMTime())
+  {
+    this->Kept.reset();
+    convert::ServedModel served = convert::servedModelOf(input);
+    palpate::CapacitanceSolver solver(served.greens, served.mesh);
+    this->Kept.reset(new Prepared{ input, input->GetMTime(), std::move(served), std::move(solver) });
+  }
+  return *this->Kept;
+}
+
+namespace
+{
+/// The constraint table, column by column, with defaults for what is optional.
+class ConstraintTable
+{
+public:
+  explicit ConstraintTable(vtkDataObject* data)
+  {
+    vtkDataSetAttributes* attributes = nullptr;
+    if (auto* points = vtkPointSet::SafeDownCast(data))
+    {
+      attributes = points->GetPointData();
+    }
+    else if (auto* table = vtkTable::SafeDownCast(data))
+    {
+      attributes = table->GetRowData();
+    }
+    if (!attributes || data->GetNumberOfElements(vtkDataObject::POINT) +
+          data->GetNumberOfElements(vtkDataObject::ROW) == 0)
+    {
+      return;
+    }
+    this->Node = this->Find(attributes, arrays::Node, 1);
+    this->Displacement = this->Find(attributes, arrays::Displacement, 3);
+    this->Traction = this->Find(attributes, arrays::Traction, 3);
+    this->Type = this->Find(attributes, arrays::BoundaryType, 1);
+    this->Direction = this->Find(attributes, arrays::Direction, 3);
+    this->ZoneNumber = this->Find(attributes, arrays::Zone, 1);
+    if (!this->Node)
+    {
+      throw std::invalid_argument(
+        std::string("the constraints have no array '") + arrays::Node + "' of vertex numbers");
+    }
+    this->Count = this->Node->GetNumberOfTuples();
+  }
+
+  vtkIdType GetCount() const { return this->Count; }
+  int GetNode(vtkIdType i) const { return static_cast<int>(this->Node->GetComponent(i, 0)); }
+  bool IsDisplacement(vtkIdType i) const { return !this->Type || this->Type->GetComponent(i, 0) != 0; }
+  int GetZone(vtkIdType i) const
+  {
+    return this->ZoneNumber ? static_cast<int>(this->ZoneNumber->GetComponent(i, 0)) : 0;
+  }
+  Eigen::Vector3d GetValue(vtkIdType i) const
+  {
+    return VectorOf(this->IsDisplacement(i) ? this->Displacement : this->Traction, i);
+  }
+  Eigen::Vector3d GetDirection(vtkIdType i) const { return VectorOf(this->Direction, i); }
+
+private:
+  static vtkDataArray* Find(vtkDataSetAttributes* attributes, const char* name, int components)
+  {
+    vtkDataArray* array = attributes->GetArray(name);
+    if (array && array->GetNumberOfComponents() != components)
+    {
+      throw std::invalid_argument(std::string("the constraints' array '") + name + "' must have " +
+        std::to_string(components) + " components, not " +
+        std::to_string(array->GetNumberOfComponents()));
+    }
+    return array;
+  }
+  static Eigen::Vector3d VectorOf(vtkDataArray* array, vtkIdType i)
+  {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    if (array)
+    {
+      array->GetTuple(i, value.data());
+    }
+    return value;
+  }
+
+  vtkIdType Count = 0;
+  vtkDataArray *Node = nullptr, *Displacement = nullptr, *Traction = nullptr, *Type = nullptr,
+               *Direction = nullptr, *ZoneNumber = nullptr;
+};
+
+/// The table as switches and given values. What agrees with the reference problem (a traction at a
+/// free vertex, a movement of a fixed one) is a given value; the rest are switches.
+struct Problem
+{
+  palpate::BoundaryValues Values;
+  std::map<int, std::vector<int>> Zones; // contact vertices by zone
+
+  Problem(const ConstraintTable& table, const palpate::GreensFunctions& greens)
+  {
+    const int count = greens.nodeCount();
+    this->Values.given = Eigen::Matrix3Xd::Zero(3, count);
+    std::vector<double> prescribed;
+    for (vtkIdType i = 0; i < table.GetCount(); ++i)
+    {
+      const int node = table.GetNode(i);
+      if (node < 0 || node >= count)
+      {
+        throw std::invalid_argument("constraint " + std::to_string(i) + " names vertex " +
+          std::to_string(node) + ", but the surface has " + std::to_string(count));
+      }
+      const Eigen::Vector3d value = table.GetValue(i), direction = table.GetDirection(i);
+      if (greens.isFixed(node) == table.IsDisplacement(i))
+      {
+        this->Values.given.col(node) += value;
+        continue;
+      }
+      if (table.IsDisplacement(i))
+      {
+        std::vector<int>& zone = this->Zones[table.GetZone(i)];
+        if (zone.empty() || zone.back() != node)
+        {
+          zone.push_back(node);
+        }
+      }
+      if (direction.isZero(0))
+      {
+        for (int c = 0; c < 3; ++c)
+        {
+          this->Values.switches.push_back({ node, Eigen::Vector3d::Unit(c) });
+          prescribed.push_back(value[c]);
+        }
+      }
+      else
+      {
+        this->Values.switches.push_back({ node, direction.normalized() });
+        prescribed.push_back(value.dot(direction.normalized()));
+      }
+    }
+    this->Values.prescribed = Eigen::Map<Eigen::VectorXd>(prescribed.data(), prescribed.size());
+  }
+};
+
+Eigen::Matrix3Xd triangleTractionsOf(vtkPolyData* surface, const std::string& name)
+{
+  vtkDataArray* array = surface->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 3)
+  {
+    throw std::invalid_argument("there is no cell array '" + name + "' of three components");
+  }
+  Eigen::Matrix3Xd tractions(3, array->GetNumberOfTuples());
+  for (vtkIdType f = 0; f < array->GetNumberOfTuples(); ++f)
+  {
+    array->GetTuple(f, tractions.col(f).data());
+  }
+  if (!tractions.allFinite())
+  {
+    throw std::invalid_argument("the cell array '" + name + "' holds values that are not finite");
+  }
+  return tractions;
+}
+
+/// Solves with loads on triangles by superposition: the reference problem under the loads, and the
+/// constraints less what the loads do there.
+palpate::BoundarySolution solveWithLoads(palpate::CapacitanceSolver& solver,
+  palpate::BoundaryValues values, const convert::ServedModel& served, vtkPolyData* surface,
+  const std::string& tractionName)
+{
+  if (tractionName.empty())
+  {
+    return solver.solve(values);
+  }
+  Eigen::Matrix3Xd applied;
+  const Eigen::Matrix3Xd background = palpate::solveFaceTractions(*served.greens, *served.mesh,
+    served.smoothPatches, triangleTractionsOf(surface, tractionName), applied);
+  for (std::size_t k = 0; k < values.switches.size(); ++k)
+  {
+    values.prescribed[k] -=
+      values.switches[k].direction.dot(background.col(values.switches[k].node));
+  }
+  palpate::BoundarySolution solution = solver.solve(values);
+  for (int node = 0; node < served.greens->nodeCount(); ++node)
+  {
+    (served.greens->isFixed(node) ? solution.traction : solution.displacement).col(node) +=
+      background.col(node);
+    solution.traction.col(node) += applied.col(node) / served.greens->vertexArea(node);
+  }
+  return solution;
+}
+} // namespace
+
+void vtkCapacitanceSolve::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
+{
+  Prepared& prepared = this->Prepare(input);
+  const palpate::GreensFunctions& greens = *prepared.Served.greens;
+  const palpate::SurfaceMesh& mesh = *prepared.Served.mesh;
+  const Problem problem(ConstraintTable(vtkDataObject::GetData(inputs[1])), greens);
+  const palpate::BoundarySolution solution = solveWithLoads(prepared.Solver, problem.Values,
+    prepared.Served, input, this->TriangleTractionArrayName);
+
+  Eigen::Matrix3Xd forces(3, problem.Zones.size()), torques(3, problem.Zones.size());
+  int zone = 0;
+  for (const auto& [number, nodes] : problem.Zones)
+  {
+    const Eigen::Vector3d centre = mesh.points()(Eigen::all, nodes).rowwise().mean();
+    const palpate::Wrench wrench =
+      palpate::wrenchOf(greens, mesh, nodes, solution.traction, centre);
+    forces.col(zone) = wrench.force;
+    torques.col(zone++) = wrench.torque;
+  }
+  convert::setPointVectors(output, arrays::Displacement, solution.displacement);
+  convert::setPointVectors(output, arrays::Traction, solution.traction);
+  convert::setFieldVectors(output, arrays::ContactForce, forces);
+  convert::setFieldVectors(output, arrays::ContactTorque, torques);
+  convert::setFieldNumber(output, arrays::ContactCondition, solution.condition);
+}

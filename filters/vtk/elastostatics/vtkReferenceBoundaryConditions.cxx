@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkReferenceBoundaryConditions.h"
+
+#include "array_names.h"
+#include "conversion.h"
+#include "model/material.h"
+
+#include "vtkDataObject.h"
+#include "vtkExtractSelection.h"
+#include "vtkImplicitFunction.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSelection.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkReferenceBoundaryConditions);
+
+vtkReferenceBoundaryConditions::vtkReferenceBoundaryConditions()
+  : YoungsModulus(vtkMath::Nan())
+  , PoissonRatio(vtkMath::Nan())
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkReferenceBoundaryConditions::~vtkReferenceBoundaryConditions() = default;
+
+void vtkReferenceBoundaryConditions::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "YoungsModulus: " << this->YoungsModulus << "\n"
+     << indent << "PoissonRatio: " << this->PoissonRatio << "\n"
+     << indent << "FixedArrayName: " << this->FixedArrayName << "\n"
+     << indent << "Fixed half-spaces, boxes, spheres: " << this->HalfSpaces.size() << ", "
+     << this->Boxes.size() << ", " << this->Spheres.size() << "\n";
+}
+
+vtkMTimeType vtkReferenceBoundaryConditions::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->FixedFunction ? std::max(own, this->FixedFunction->GetMTime()) : own;
+}
+
+int vtkReferenceBoundaryConditions::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+void vtkReferenceBoundaryConditions::SetFixedArrayName(const char* name)
+{
+  this->FixedArrayName = name ? name : "";
+  this->Modified();
+}
+
+void vtkReferenceBoundaryConditions::AddFixedHalfSpace(const double origin[3], const double normal[3])
+{
+  this->HalfSpaces.push_back(
+    { origin[0], origin[1], origin[2], normal[0], normal[1], normal[2] });
+  this->Modified();
+}
+
+void vtkReferenceBoundaryConditions::AddFixedBox(const double b[6])
+{
+  this->Boxes.push_back({ b[0], b[1], b[2], b[3], b[4], b[5] });
+  this->Modified();
+}
+
+void vtkReferenceBoundaryConditions::AddFixedSphere(const double center[3], double radius)
+{
+  this->Spheres.push_back({ center[0], center[1], center[2], radius });
+  this->Modified();
+}
+
+void vtkReferenceBoundaryConditions::ClearFixedRegions()
+{
+  this->HalfSpaces.clear();
+  this->Boxes.clear();
+  this->Spheres.clear();
+  this->Modified();
+}
+
+void vtkReferenceBoundaryConditions::SetFixedFunction(vtkImplicitFunction* function)
+{
+  if (this->FixedFunction != function)
+  {
+    this->FixedFunction = function;
+    this->Modified();
+  }
+}
+
+vtkImplicitFunction* vtkReferenceBoundaryConditions::GetFixedFunction()
+{
+  return this->FixedFunction;
+}
+
+namespace
+{
+/// 1 for each point of the surface that a selection holds.
+std::vector<unsigned char> selectedPoints(vtkPolyData* surface, vtkSelection* selection)
+{
+  vtkNew<vtkExtractSelection> extract;
+  extract->SetInputData(0, surface);
+  extract->SetInputData(1, selection);
+  extract->PreserveTopologyOn();
+  extract->Update();
+  auto* marked = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
+  vtkDataArray* inside =
+    marked ? marked->GetPointData()->GetArray("vtkInsidedness") : nullptr;
+  if (!inside || inside->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw std::invalid_argument("the selection of fixed points does not fit the surface");
+  }
+  std::vector<unsigned char> selected;
+  for (vtkIdType i = 0; i < inside->GetNumberOfTuples(); ++i)
+  {
+    selected.push_back(inside->GetComponent(i, 0) > 0);
+  }
+  return selected;
+}
+} // namespace
+
+void vtkReferenceBoundaryConditions::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
+{
+  namespace arrays = palpate::arrays;
+  const vtkIdType count = input->GetNumberOfPoints();
+  vtkSelection* selection = vtkSelection::GetData(inputs[1]);
+  const bool hasRegions =
+    !this->HalfSpaces.empty() || !this->Boxes.empty() || !this->Spheres.empty();
+  if (hasRegions || selection || this->FixedFunction || !this->FixedArrayName.empty())
+  {
+    std::vector<unsigned char> types(count, 0);
+    if (selection)
+    {
+      types = selectedPoints(input, selection);
+    }
+    vtkDataArray* array = this->FixedArrayName.empty()
+      ? nullptr
+      : input->GetPointData()->GetArray(this->FixedArrayName.c_str());
+    if (!this->FixedArrayName.empty() && !array)
+    {
+      throw std::invalid_argument("there is no point array '" + this->FixedArrayName + "'");
+    }
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const Eigen::Vector3d x(input->GetPoint(i));
+      bool fixed = array && array->GetComponent(i, 0) != 0;
+      for (const auto& h : this->HalfSpaces)
+      {
+        fixed = fixed || (x - Eigen::Vector3d(&h[0])).dot(Eigen::Vector3d(&h[3])) <= 0;
+      }
+      for (const auto& b : this->Boxes)
+      {
+        fixed = fixed ||
+          (x.x() >= b[0] && x.x() <= b[1] && x.y() >= b[2] && x.y() <= b[3] && x.z() >= b[4] &&
+            x.z() <= b[5]);
+      }
+      for (const auto& s : this->Spheres)
+      {
+        fixed = fixed || (x - Eigen::Vector3d(&s[0])).norm() <= s[3];
+      }
+      fixed = fixed ||
+        (this->FixedFunction && this->FixedFunction->FunctionValue(x.x(), x.y(), x.z()) <= 0);
+      types[i] = types[i] || fixed;
+    }
+    palpate::convert::setBoundaryTypes(output, types);
+  }
+
+  const auto keepOrSet = [&](const char* name, double value)
+  {
+    if (!vtkMath::IsNan(value))
+    {
+      palpate::convert::setFieldNumber(output, name, value);
+    }
+    return palpate::convert::fieldNumber(output, name, "set it on this filter");
+  };
+  const double young = keepOrSet(arrays::YoungsModulus, this->YoungsModulus);
+  const double poisson = keepOrSet(arrays::PoissonRatio, this->PoissonRatio);
+  palpate::Material(young, poisson); // checks them
+}

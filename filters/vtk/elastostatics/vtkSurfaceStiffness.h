@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class vtkSurfaceStiffness
+ * @brief the stiffness that a point-like contact feels at every vertex
+ *
+ * Adds the point arrays `Stiffness` (3 by 3, row by row, N/m; symmetric positive definite),
+ * `StiffnessNorm` (Frobenius), `StiffnessAsymmetry` (of the discrete compliance before symmetrising, an
+ * indicator of its error), `HapticRatio` (of K^H to K^E) and `VertexArea`. Fixed vertices show the
+ * rigid stiffness. Input: a surface with its Green's functions. James & Pai 2001, eq. 32, 33 and
+ * section 6.4; fig. 7 is this array without and with a mask.
+ */
+
+#ifndef vtkSurfaceStiffness_h
+#define vtkSurfaceStiffness_h
+
+#include "vtkMaskedContactAlgorithm.h"
+
+class PALPATEELASTOSTATICS_EXPORT vtkSurfaceStiffness : public vtkMaskedContactAlgorithm
+{
+public:
+  static vtkSurfaceStiffness* New();
+  vtkTypeMacro(vtkSurfaceStiffness, vtkMaskedContactAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * k_Rigid (N/m): the stiffness of fixed vertices and the most that the haptic stiffness shows. 0,
+   * the default, takes the stiffest free vertex.
+   */
+  vtkSetMacro(RigidStiffness, double);
+  vtkGetMacro(RigidStiffness, double);
+  ///@}
+
+protected:
+  vtkSurfaceStiffness() = default;
+  ~vtkSurfaceStiffness() override = default;
+  void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
+
+private:
+  vtkSurfaceStiffness(const vtkSurfaceStiffness&) = delete;
+  void operator=(const vtkSurfaceStiffness&) = delete;
+
+  double RigidStiffness = 0;
+};
+
+#endif

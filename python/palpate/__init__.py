@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Touch elastic surfaces: Green's functions, contact forces, deformations and stiffness.
+
+Surfaces are `vtkPolyData` (of VTK or PyVista); results are ordinary VTK arrays on them, which
+`array(data, name)` shows as NumPy. The classes of the C++ filters (`vtkBoundaryElementGreensFunctions`
+and so on) are here too, for pipelines.
+
+>>> import palpate
+>>> kidney = palpate.refine(palpate.read(palpate.example("kidney")), levels=2)
+>>> model = palpate.precompute(kidney, young=8e3, poisson=0.45)
+>>> pressed = palpate.press(model, point=(0, 0, 0.03), displacement=(0, 0, -0.005), radius=0.015)
+>>> bool(palpate.array(pressed, "ContactForce")[0, 2] < 0)
+True
+"""
+
+from .PalpateElastostatics import *  # noqa: F401,F403
+from .PalpateIO import *  # noqa: F401,F403
+from .arrays import array, greens_function_nodes, greens_functions
+from .files import example, read, write
+from .functions import Error, Aborted, precompute, press, refine, repair, solve, stiffness
+
+__all__ = [
+    "Aborted",
+    "Error",
+    "array",
+    "example",
+    "greens_function_nodes",
+    "greens_functions",
+    "precompute",
+    "press",
+    "read",
+    "refine",
+    "repair",
+    "solve",
+    "stiffness",
+    "write",
+]

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""NumPy views of the arrays on a surface."""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkStringArray
+
+
+def array(data, name):
+    """A point, cell or field array of a data object, by name.
+
+    Parameters
+    ----------
+    data : vtkDataObject
+        Such as the result of `precompute`, `solve`, `press` or `stiffness`.
+    name : str
+        `"Displacement"`, `"Traction"`, `"Stiffness"`, `"ContactForce"` ...
+
+    Returns
+    -------
+    numpy.ndarray or list of str
+        A view, not a copy: n values, or n by components. Strings come as a list.
+
+    Raises
+    ------
+    KeyError
+        If there is no such array.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.read(palpate.example("kidney"))
+    >>> palpate.array(kidney, "BoundaryType").shape
+    (22,)
+    """
+    for attributes in (data.GetPointData(), data.GetCellData(), data.GetFieldData()):
+        found = attributes.GetAbstractArray(name)
+        if isinstance(found, vtkStringArray):
+            return [found.GetValue(i) for i in range(found.GetNumberOfValues())]
+        if found is not None:
+            return vtk_to_numpy(found)
+    raise KeyError(f"there is no array '{name}'")
+
+
+def greens_functions(model):
+    """The matrix of Green's functions of a model.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`, n vertices.
+
+    Returns
+    -------
+    numpy.ndarray
+        Xi of James & Pai 2001, eq. 13: 3n rows by 3m columns, one block of three rows a vertex
+        (displacement in metres where it is free, traction in pascals where it is fixed) and one block
+        of three columns for each of the m vertices of `greens_function_nodes` (response to a unit
+        traction where free, to a unit displacement where fixed). A view, not a copy.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.read(palpate.example("kidney"))
+    >>> model = palpate.precompute(kidney, 8e3, 0.45)
+    >>> palpate.greens_functions(model).shape, len(palpate.greens_function_nodes(model))
+    ((66, 30), 10)
+    """
+    return array(model, "GreensFunctions").T
+
+
+def greens_function_nodes(model):
+    """The vertices whose columns `greens_functions` holds, in order.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`.
+
+    Returns
+    -------
+    numpy.ndarray
+        m vertex numbers.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> model = palpate.precompute(palpate.read(palpate.example("kidney")), 8e3, 0.45)
+    >>> bool((palpate.array(model, "BoundaryType")[palpate.greens_function_nodes(model)] == 0).all())
+    True
+    """
+    return array(model, "GreensFunctionNodes")
+
+
+def as_vtk(values, name, components, dtype=np.float64):
+    """A VTK array of a copy of the values."""
+    values = np.ascontiguousarray(np.asarray(values, dtype=dtype).reshape(-1, components))
+    result = numpy_to_vtk(values if components > 1 else values.ravel(), deep=True)
+    result.SetName(name)
+    return result
+
+
+def as_ids(values, name):
+    """An id array of a copy of the values."""
+    result = vtkIdTypeArray()
+    result.SetName(name)
+    for value in np.asarray(values, dtype=np.int64).ravel():
+        result.InsertNextValue(int(value))
+    return result

@@ -1,0 +1,406 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One call for each thing that the filters do."""
+
+import sys
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
+
+from .arrays import as_ids, as_vtk
+from .errors import Aborted, Error, run
+from .PalpateElastostatics import (
+    vtkBoundaryElementGreensFunctions,
+    vtkCapacitanceSolve,
+    vtkElasticMeshRepair,
+    vtkLoopRefinement,
+    vtkPointContact,
+    vtkReferenceBoundaryConditions,
+    vtkSurfaceStiffness,
+)
+
+__all__ = ["Aborted", "Error", "precompute", "press", "refine", "repair", "solve", "stiffness"]
+
+_PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
+_COLLOCATIONS = {"averaged": 0, "vertex": 1}
+_DOMAINS = {"interior": 0, "exterior": 1}
+_MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3}
+
+
+def _choice(value, choices, what):
+    if value not in choices:
+        raise Error(f"there is no {what} '{value}': choose one of {', '.join(choices)}")
+    return choices[value]
+
+
+def _vector(value, what):
+    vector = np.asarray(value, dtype=float).ravel()
+    if vector.size != 3:
+        raise Error(f"{what} must have three components, not {vector.size}")
+    return vector
+
+
+def _vectors(values, count, what):
+    vectors = np.asarray(values, dtype=float)
+    if vectors.size != 3 * count or (vectors.ndim > 1 and vectors.shape[-1] != 3):
+        raise Error(f"{what} must be {count} by 3, not {'x'.join(map(str, vectors.shape))}")
+    return vectors.reshape(count, 3)
+
+
+def _bar(fraction, stage):
+    width = 30
+    done = int(round(width * fraction))
+    print(f"\r{stage:10s} [{'#' * done}{'.' * (width - done)}] {100 * fraction:3.0f} %",
+          end="\n" if fraction >= 1 else "", file=sys.stderr, flush=True)
+
+
+def _progress(progress):
+    return _bar if progress is True else progress or None
+
+
+def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
+               tolerance=None, columns=None, domain="interior", reciprocal=True,
+               smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
+               threads=0):
+    """Compute the Green's functions of an elastic body from its surface.
+
+    Parameters
+    ----------
+    surface : vtkPolyData
+        A closed triangle surface of n vertices, normals out of the material (see `repair`). Lengths
+        in metres, or in any one unit.
+    young : float or None
+        Young's modulus, Pa, > 0. None takes the surface's field data.
+    poisson : float or None
+        Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
+    fixed : array_like of bool, optional
+        n values, where the body is held. None takes the surface's point array `BoundaryType`.
+    method : {"bem"}
+        Boundary elements.
+    precision : {"double", "mixed", "float"}
+        Double; factored in float and refined in double; or all in float (half the memory, about 1e-5
+        relative).
+    tolerance : float, optional
+        Relative tolerance of the integration, 1e-6 by default.
+    columns : array_like of int, optional
+        Vertices whose Green's functions are computed; all free ones by default.
+    domain : {"interior", "exterior"}
+        Material inside the surface, or everywhere outside it.
+    reciprocal : bool
+        Symmetrise the compliance, so that all that is served comes from one energy.
+    smooth_angle : float
+        Traction may jump at edges sharper than this, degrees, unless the surface has a cell array
+        `SmoothPatch`. 180 for one traction a vertex.
+    progress : callable or bool, optional
+        Called as progress(fraction, stage); return False to abort. True shows a bar.
+    collocation : {"averaged", "vertex"}
+        Enforce the boundary integral equation in the mean around each vertex, or at the vertices as in
+        the paper (faster to assemble, several times less accurate).
+    patch_columns : bool
+        Also compute what `solve` needs for `face_tractions` on surfaces with sharp edges.
+    threads : int
+        0 for all cores.
+
+    Returns
+    -------
+    vtkPolyData
+        The surface with its Green's functions, provenance and diagnostics as arrays.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the surface, the support or the material.
+    Aborted
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.refine(palpate.read(palpate.example("nodule")))
+    >>> model = palpate.precompute(nodule, young=20e3, poisson=0.45)
+    >>> palpate.greens_functions(model).shape
+    (390, 267)
+    >>> float(palpate.array(model, "ReciprocityDefect")[0]) < 0.1
+    True
+    """
+    if method != "bem":
+        raise Error(f"there is no method '{method}': choose bem")
+    conditions = vtkReferenceBoundaryConditions()
+    conditioned = vtkPolyData()
+    conditioned.ShallowCopy(surface)
+    if fixed is not None:
+        fixed = np.asarray(fixed)
+        if fixed.shape != (surface.GetNumberOfPoints(),):
+            raise Error(f"fixed must hold {surface.GetNumberOfPoints()} values, one a vertex, not "
+                        f"{'x'.join(map(str, fixed.shape))}")
+        conditioned.GetPointData().AddArray(
+            as_vtk(fixed.astype(bool), "BoundaryType", 1, np.uint8))
+    conditions.SetInputData(conditioned)
+    if young is not None:
+        conditions.SetYoungsModulus(young)
+    if poisson is not None:
+        conditions.SetPoissonRatio(poisson)
+
+    bem = vtkBoundaryElementGreensFunctions()
+    bem.SetInputData(run(conditions))
+    bem.SetPrecision(_choice(precision, _PRECISIONS, "precision"))
+    bem.SetCollocation(_choice(collocation, _COLLOCATIONS, "collocation"))
+    bem.SetDomain(_choice(domain, _DOMAINS, "domain"))
+    bem.SetReciprocal(bool(reciprocal))
+    bem.SetSmoothAngle(smooth_angle)
+    bem.SetPatchColumns(bool(patch_columns))
+    bem.SetNumberOfThreads(threads)
+    if tolerance is not None:
+        bem.SetTolerance(tolerance)
+    if columns is not None:
+        bem.SetColumnNodes(as_ids(columns, "columns"))
+    return run(bem, _progress(progress))
+
+
+def solve(model, nodes, displacements, free_tractions=None, face_tractions=None):
+    """Displace some vertices and solve for all displacements, tractions and the contact force.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`, n vertices.
+    nodes : array_like of int
+        s vertices whose displacements are prescribed: free ones in contact, or fixed ones moved (the
+        latter need their columns precomputed).
+    displacements : array_like
+        s by 3, metres.
+    free_tractions : array_like, optional
+        n by 3, pascals: the traction on the other free vertices, the same on all smooth patches of a
+        vertex. Zero by default; values at fixed vertices and at `nodes` do not count.
+    face_tractions : array_like, optional
+        One by 3 for each triangle, pascals: tractions that may jump across sharp edges. Needs
+        `patch_columns` where the surface has sharp edges.
+
+    Returns
+    -------
+    vtkPolyData
+        The model with `Displacement` and `Traction` (n by 3), and the field arrays `ContactForce` and
+        `ContactTorque` (1 by 3, of all `nodes` that are free in the model, on the body) and
+        `ContactCondition`.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> model = palpate.precompute(palpate.read(palpate.example("kidney")), 8e3, 0.45)
+    >>> node = int(palpate.greens_function_nodes(model)[0])
+    >>> moved = palpate.solve(model, [node], [(0, 0, 0.001)])
+    >>> round(float(palpate.array(moved, "Displacement")[node, 2]), 9)
+    0.001
+    """
+    count = model.GetNumberOfPoints()
+    nodes = np.asarray(nodes, dtype=np.int64).ravel()
+    values = _vectors(displacements, nodes.size, "displacements")
+    types = np.ones(nodes.size)
+    tractions = np.zeros_like(values)
+    if free_tractions is not None:
+        given = _vectors(free_tractions, count, "free_tractions")
+        kinds = model.GetPointData().GetArray("BoundaryType")
+        loaded = np.array([i for i in np.flatnonzero(given.any(axis=1) | ~np.isfinite(given).all(axis=1))
+                           if kinds is not None and kinds.GetComponent(i, 0) == 0
+                           and i not in set(nodes.tolist())], dtype=np.int64)
+        nodes = np.concatenate([nodes, loaded])
+        values = np.concatenate([values, np.zeros((loaded.size, 3))])
+        tractions = np.concatenate([tractions, given[loaded]])
+        types = np.concatenate([types, np.zeros(loaded.size)])
+
+    table = vtkTable()
+    for column in (as_ids(nodes, "Node"), as_vtk(values, "Displacement", 3),
+                   as_vtk(tractions, "Traction", 3), as_vtk(types, "BoundaryType", 1, np.uint8)):
+        table.GetRowData().AddArray(column)
+    solver = vtkCapacitanceSolve()
+    surface = vtkPolyData()
+    surface.ShallowCopy(model)
+    if face_tractions is not None:
+        loads = _vectors(face_tractions, model.GetNumberOfCells(), "face_tractions")
+        surface.GetCellData().AddArray(as_vtk(loads, "TriangleTraction", 3))
+        solver.SetTriangleTractionArrayName("TriangleTraction")
+    solver.SetInputData(surface)
+    solver.SetConstraintsData(table)
+    return run(solver)
+
+
+def press(model, point, displacement=None, force=None, radius=None, mask="linear", *,
+          radius_in_edges=None, rigid_stiffness=0.0):
+    """Press (or pull) the surface at a point.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`, n vertices.
+    point : array_like
+        Three coordinates; the contact is at the surface's nearest point.
+    displacement : array_like, optional
+        What the contact is moved by, metres.
+    force : array_like, optional
+        What it is pushed with, newtons. Give one of the two.
+    radius : float, optional
+        Radius of the pressure mask, metres. By default the load goes to single vertices, which is
+        soft without bound as the mesh is refined: give the size of what touches.
+    mask : {"linear", "uniform", "gaussian", "hertzian"}
+        How the pressure falls with distance.
+    radius_in_edges : float, optional
+        The radius as a multiple of the mean edge length, instead of `radius`.
+    rigid_stiffness : float
+        Stiffness of fixed vertices and largest stiffness shown, N/m; 0 for the stiffest free vertex.
+
+    Returns
+    -------
+    vtkPolyData
+        The model with `Displacement` and `Traction` (n by 3), and the field arrays `ContactForce` (on
+        the body, N), `ContactPoint`, `ElasticContactPoint` and `HapticContactPoint` (1 by 3; x^C, x^E,
+        x^H of James & Pai 2001, fig. 8).
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> model = palpate.precompute(palpate.refine(palpate.read(palpate.example("nodule"))), 2e4, 0.45)
+    >>> pressed = palpate.press(model, (0, 0, 0.05), force=(0, 0, -0.1), radius=0.01)
+    >>> [round(float(f), 9) for f in palpate.array(pressed, "ContactForce")[0]]
+    [0.0, 0.0, -0.1]
+    """
+    if (displacement is None) == (force is None):
+        raise Error("give either a displacement or a force")
+    contact = vtkPointContact()
+    contact.SetInputData(model)
+    contact.SetPoint(*_vector(point, "point"))
+    if displacement is not None:
+        contact.SetDisplacement(*_vector(displacement, "displacement"))
+    else:
+        contact.SetForce(*_vector(force, "force"))
+    contact.SetRigidStiffness(rigid_stiffness)
+    _set_mask(contact, radius, radius_in_edges, mask)
+    return run(contact)
+
+
+def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_stiffness=0.0,
+              progress=None):
+    """The stiffness that a point-like contact feels at every vertex.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`, n vertices.
+    radius : float, optional
+        Radius of the pressure mask, metres; by default single vertices are pressed, whose stiffness
+        depends on the mesh.
+    mask : {"linear", "uniform", "gaussian", "hertzian"}
+    radius_in_edges : float, optional
+        The radius as a multiple of the mean edge length (the paper's fig. 7 uses 2).
+    rigid_stiffness : float
+        What fixed vertices show, N/m; 0 for the stiffest free vertex.
+    progress : callable or bool, optional
+        As in `precompute`.
+
+    Returns
+    -------
+    vtkPolyData
+        The model with `Stiffness` (n by 9, the matrix row by row, N/m), `StiffnessNorm` (n,
+        Frobenius), `StiffnessAsymmetry` and `HapticRatio` (n).
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> model = palpate.precompute(palpate.refine(palpate.read(palpate.example("nodule"))), 2e4, 0.45)
+    >>> field = palpate.stiffness(model, radius_in_edges=2)
+    >>> palpate.array(field, "Stiffness").shape
+    (130, 9)
+    """
+    algorithm = vtkSurfaceStiffness()
+    algorithm.SetInputData(model)
+    algorithm.SetRigidStiffness(rigid_stiffness)
+    _set_mask(algorithm, radius, radius_in_edges, mask)
+    return run(algorithm, _progress(progress))
+
+
+def _set_mask(algorithm, radius, radius_in_edges, mask):
+    if radius is not None and radius_in_edges is not None:
+        raise Error("give radius or radius_in_edges, not both")
+    algorithm.SetMask(_choice(mask, _MASKS, "mask"))
+    algorithm.SetRadiusInEdgeLengths(radius_in_edges is not None)
+    given = radius if radius_in_edges is None else radius_in_edges
+    algorithm.SetRadius(0.0 if given is None else given)
+
+
+def refine(surface, levels=1):
+    """Subdivide a closed surface by Loop's scheme, with its boundary types and other data.
+
+    Parameters
+    ----------
+    surface : vtkPolyData
+        A closed triangle surface.
+    levels : int
+        How often every triangle is split in four, 0 to 8.
+
+    Returns
+    -------
+    vtkPolyData
+        Old vertices keep their numbers.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the surface.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
+    620
+    """
+    if not 0 <= levels <= 8:
+        raise Error(f"levels must be 0 to 8, not {levels}")
+    refinement = vtkLoopRefinement()
+    refinement.SetInputData(surface)
+    refinement.SetNumberOfLevels(int(levels))
+    return run(refinement)
+
+
+def repair(surface):
+    """Mend a surface so that it bounds elastic bodies.
+
+    Parameters
+    ----------
+    surface : vtkPolyData
+        Any polygons.
+
+    Returns
+    -------
+    vtkPolyData
+        A sound surface; what was changed is in the field array `RepairChanges`, a sentence each. A
+        sound surface comes back as it is, without that array.
+
+    Raises
+    ------
+    Error
+        With the sentence of what could not be mended.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.read(palpate.example("kidney"))
+    >>> palpate.repair(kidney).GetFieldData().HasArray("RepairChanges")
+    0
+    """
+    mender = vtkElasticMeshRepair()
+    mender.SetInputData(surface)
+    return run(mender)
