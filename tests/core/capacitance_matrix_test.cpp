@@ -83,6 +83,12 @@ TEST(CapacitanceMatrix, ImpossibleSetsAreRefusedNamingTheNodes) {
   EXPECT_TRUE(isRefused(make(switchesOfNodes({0, 20})), "there is no node 20"));
   EXPECT_TRUE(isRefused(make({{1, x}, {5, 2 * x}}),
                         "the direction (2, 0, 0) of a constraint at node 5 is not a unit vector"));
+  EXPECT_TRUE(isRefused(make({{1, x}, {5, x}, {5, x}}),
+                        "node 5 is constrained twice along the same direction"));
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  EXPECT_TRUE(
+      isRefused(make({{5, x}, {5, y}, {5, (x + y).normalized()}, {5, (x - y).normalized()}}),
+                "node 5 has more than three constraints"));
   EXPECT_TRUE(isRefused([&] { CapacitanceMatrix(greens, -1); },
                         "the capacity of a capacitance matrix must be at least 0, not -1"));
   EXPECT_TRUE(isRefused<std::runtime_error>(make({{2, x}, {0, x}, {0, -x}}),

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <Eigen/QR>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -29,15 +30,19 @@ void requireSwitches(const GreensFunctions& greens, const std::vector<Constraint
   std::vector<int> nodes;
   for (const ConstraintSwitch& s : switches) nodes.push_back(s.node);
   greens.requireColumns(nodeList(nodes));
-  std::vector<int> count(greens.nodeCount(), 0);
+  std::vector<std::vector<Eigen::Vector3d>> directions(greens.nodeCount());
   for (const ConstraintSwitch& s : switches) {
+    std::vector<Eigen::Vector3d>& ofNode = directions[s.node];
     std::ostringstream text;
     if (!s.isUnit())
       text << "the direction (" << s.direction.x() << ", " << s.direction.y() << ", "
            << s.direction.z() << ") of a constraint at node " << s.node << " is not a unit vector";
-    else if (++count[s.node] > 3)
+    else if (std::count(ofNode.begin(), ofNode.end(), s.direction) > 0)
+      text << "node " << s.node << " is constrained twice along the same direction";
+    else if (ofNode.size() == 3)
       text << "node " << s.node << " has more than three constraints";
     if (!text.str().empty()) throw std::invalid_argument(text.str());
+    ofNode.push_back(s.direction);
   }
 }
 
@@ -186,8 +191,8 @@ std::pair<int, int> CapacitanceMatrix::weakestPair() const {
   if (n < 2) return {-1, -1};
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(
       ConstStrided(compliance_.data(), n, n, Eigen::OuterStride<>(stride_)));
-  // The columns before the largest drop of the pivots span the matrix; of those after it the last
-  // is the most dependent, and its largest share among the former names the twin.
+  // The columns before the largest drop of the pivots span the matrix. The last one less its
+  // combination of those is what the matrix all but annihilates.
   const Eigen::VectorXd pivots = qr.matrixR().diagonal().cwiseAbs();
   const double least = std::numeric_limits<double>::epsilon() * pivots[0];
   int rank = 1;
@@ -199,14 +204,22 @@ std::pair<int, int> CapacitanceMatrix::weakestPair() const {
       rank = k;
     }
   }
-  const Eigen::VectorXd shares = qr.matrixR()
-                                     .topLeftCorner(rank, rank)
-                                     .triangularView<Eigen::Upper>()
-                                     .solve(qr.matrixR().col(n - 1).head(rank));
+  const Eigen::VectorXd combination = qr.matrixR()
+                                          .topLeftCorner(rank, rank)
+                                          .triangularView<Eigen::Upper>()
+                                          .solve(qr.matrixR().col(n - 1).head(rank));
   const auto& order = qr.colsPermutation().indices();
-  Eigen::Index twin;
-  shares.cwiseAbs().maxCoeff(&twin);
-  return {switches_[order[n - 1]].node, switches_[order[twin]].node};
+  std::map<int, double> shares;  // of nodes, squared
+  shares[switches_[order[n - 1]].node] += 1;
+  for (int k = 0; k < rank; ++k)
+    shares[switches_[order[k]].node] += combination[k] * combination[k];
+  std::vector<std::pair<double, int>> largest;
+  for (const auto& [node, share] : shares) largest.push_back({share, node});
+  std::sort(largest.rbegin(), largest.rend());
+  constexpr double negligible = 1e-4;
+  if (largest.size() < 2 || largest[1].first < negligible * largest[0].first)
+    return {largest[0].second, largest[0].second};
+  return std::minmax({largest[0].second, largest[1].second});
 }
 
 }  // namespace palpate

@@ -23,8 +23,9 @@ struct ConstraintSwitch {
   bool isUnit() const { return std::abs(direction.norm() - 1) < 1e-6; }
 };
 
-/// @throws std::invalid_argument for a node without column, a direction that is not a unit vector,
-///         or more than three of them at a node.
+/// @throws std::invalid_argument for a node without column, a direction that is not a unit vector
+/// or
+///         named twice at a node, or more than three of them at a node.
 void requireSwitches(const GreensFunctions& greens, const std::vector<ConstraintSwitch>& switches);
 
 /// The three switches of a whole node.
@@ -92,9 +93,9 @@ class CapacitanceMatrix {
   /// own memory, so it is not for several threads.
   double residual() noexcept;
 
-  /// The two nodes whose switches are nearest to dependent (rank-revealing QR): the one that the
-  /// others determine best, and the one among those with the largest share; twice the same if its
-  /// own directions are. (-1, -1) below two switches.
+  /// The two nodes, in ascending order, with the largest shares in the combination of switches that
+  /// is nearest to zero (rank-revealing QR); twice the same if one node has it all. (-1, -1) below
+  /// two switches.
   std::pair<int, int> weakestPair() const;
 
   /// Refactorisations that the watch over drift has caused so far.

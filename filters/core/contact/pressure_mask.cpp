@@ -47,6 +47,10 @@ PressureMasks::PressureMasks(const SurfaceMesh& mesh, const BoundaryConditions& 
   if (!(radius >= 0) || !std::isfinite(radius))
     throw std::invalid_argument("the radius of a pressure mask must be at least 0, not " +
                                 std::to_string(radius));
+  if (conditions.nodeCount() != mesh.vertexCount())
+    throw std::invalid_argument("there are boundary types of " +
+                                std::to_string(conditions.nodeCount()) +
+                                " vertices for a surface of " + std::to_string(mesh.vertexCount()));
 }
 
 VertexMask PressureMasks::at(int vertex) const {
