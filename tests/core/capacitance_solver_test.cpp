@@ -141,7 +141,7 @@ TEST_F(CapacitanceSolverOfASphere, MixedDirectionsSolveTheBoundaryIntegralEquati
       EXPECT_NEAR(direction.dot(nowGiven.col(node)), values.prescribed[k],
                   kFresh * nowGiven.norm());
     }
-    // what the switches do not touch as given,
+    // what they do not touch is as given, and along them is what they made unknown,
     for (int node = 0; node < nodeCount(); ++node) {
       Eigen::Matrix3Xd switched(3, 0);
       Eigen::Vector3d added = Eigen::Vector3d::Zero();
@@ -157,7 +157,6 @@ TEST_F(CapacitanceSolverOfASphere, MixedDirectionsSolveTheBoundaryIntegralEquati
       Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
       if (switched.cols() > 0)
         across -= switched * switched.completeOrthogonalDecomposition().pseudoInverse();
-      // and along them what the switches made unknown,
       EXPECT_LE((after - across * before - added).norm(), kFresh * (1 + after.norm()));
     }
     // and all of it solves another boundary value problem of the same body.
