@@ -52,6 +52,12 @@ void expectFresh(const Shape& shape, const TouchedBody& body, CapacitanceSolver&
   const Nodal fresh = solveAfresh(shape, *body.greens, nodes, exchangedGiven);
   EXPECT_LE(relativeDifference(solution.displacement, fresh.displacement), kFresh);
   EXPECT_LE(relativeDifference(solution.traction, fresh.traction), kFresh);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // whole nodes: the unknown vector itself
+    const Eigen::Matrix3Xd& unknown =
+        body.greens->isFixed(nodes[i]) ? fresh.displacement : fresh.traction;
+    EXPECT_LE((solution.switchedValues.segment<3>(3 * i) - unknown.col(nodes[i])).norm(),
+              kFresh * unknown.norm());
+  }
 }
 
 class CapacitanceSolverOfASphere : public testing::Test {
@@ -135,23 +141,23 @@ TEST_F(CapacitanceSolverOfASphere, MixedDirectionsSolveTheBoundaryIntegralEquati
       EXPECT_NEAR(direction.dot(nowGiven.col(node)), values.prescribed[k],
                   kFresh * nowGiven.norm());
     }
-    // what the switches do not touch as given,
+    // what they do not touch is as given, and along them is what they made unknown,
     for (int node = 0; node < nodeCount(); ++node) {
-      Eigen::Matrix3Xd across(3, 0);
-      for (const auto& s : values.switches)
-        if (s.node == node) {
-          across.conservativeResize(3, across.cols() + 1);
-          across.rightCols<1>() = s.direction;
-        }
-      const bool fixed = body_->greens->isFixed(node);
-      const Eigen::Vector3d change =
-          (fixed ? solution.displacement : solution.traction).col(node) - values.given.col(node);
-      const Eigen::Matrix3d projector =
-          across.cols() == 0 ? Eigen::Matrix3d::Identity().eval()
-                             : (Eigen::Matrix3d::Identity() -
-                                across * across.completeOrthogonalDecomposition().pseudoInverse())
-                                   .eval();
-      EXPECT_LE((projector * change).norm(), kFresh * values.given.norm());
+      Eigen::Matrix3Xd switched(3, 0);
+      Eigen::Vector3d added = Eigen::Vector3d::Zero();
+      for (std::size_t k = 0; k < values.switches.size(); ++k) {
+        if (values.switches[k].node != node) continue;
+        switched.conservativeResize(3, switched.cols() + 1);
+        switched.rightCols<1>() = values.switches[k].direction;
+        added += solution.switchedValues[k] * values.switches[k].direction;
+      }
+      const Eigen::Vector3d after =
+          (body_->greens->isFixed(node) ? solution.displacement : solution.traction).col(node);
+      const Eigen::Vector3d before = values.given.col(node);
+      Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+      if (switched.cols() > 0)
+        across -= switched * switched.completeOrthogonalDecomposition().pseudoInverse();
+      EXPECT_LE((after - across * before - added).norm(), kFresh * (1 + after.norm()));
     }
     // and all of it solves another boundary value problem of the same body.
     const std::vector<int> exchanged = randomSubset(nodeCount(), 15, random_);

@@ -153,7 +153,7 @@ TEST(CapacitanceUpdates, RemovingANearTwinLeavesNoDamageBehind) {
   expectConsistent(c, xi);
 }
 
-TEST(CapacitanceUpdates, UpdatesAndSolvesNeitherAllocateNorThrow) {
+TEST(CapacitanceUpdates, UpdatesSolvesAndDeformationSumsNeitherAllocateNorThrow) {
   static_assert(noexcept(std::declval<CapacitanceMatrix&>().add(nullptr, 1)));
   static_assert(noexcept(std::declval<CapacitanceMatrix&>().removeNode(1)));
   static_assert(noexcept(std::declval<const CapacitanceMatrix&>().solve(nullptr, nullptr)));
@@ -165,11 +165,15 @@ TEST(CapacitanceUpdates, UpdatesAndSolvesNeitherAllocateNorThrow) {
   makeTwins(info, xi, 7, 12, 1e-9, random);
   CapacitanceMatrix c(denseGreens(info, xi), 60);
   const auto switches = switchesOfNodes({0, 1, 2, 3, 7, 4, 5, 12, 8});
-  Eigen::VectorXd right = Eigen::VectorXd::Ones(60), values(60);
+  Eigen::VectorXd right = Eigen::VectorXd::Ones(60), values(60), moved(60);
+  std::vector<int> nodes;
+  for (std::size_t k = 0; k < switches.size(); k += 3) nodes.push_back(switches[k].node);
   const long before = allocationCount();
   for (int round = 0; round < 10; ++round) {
     for (std::size_t k = 0; k < switches.size(); k += 3) c.add(&switches[k], 3);
     c.solve(right.data(), values.data());
+    moved.setZero();  // the deformation sum; whole nodes stand in the order of their addition
+    c.greens().accumulate(nodeList(nodes), values.head(c.size()), moved);
     c.add(&switches[0], 2);  // refused
     for (std::size_t k = 0; k < switches.size(); k += 3) c.removeNode(switches[k].node);
     c.removeNode(17);  // not there

@@ -127,8 +127,8 @@ class CapacitanceMatrix {
   int nearestNode(int count) const noexcept;
   void appendBorder(const Pivot& diagonal, const Pivot& schurInverse) noexcept;
   void swapSwitches(int a, int b) noexcept;
-  double removalPivot(int count) const noexcept;
-  void removeLast(int count) noexcept;
+  Pivot invertCorner(int count, double& pivot) const noexcept;
+  void removeLast(const Pivot& cornerInverse) noexcept;
   bool refactor() noexcept;
   void watchDrift() noexcept;
 

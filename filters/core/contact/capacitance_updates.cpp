@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include "contact/capacitance_matrix.h"
 #include "contact/inverse_updates.h"
@@ -26,10 +25,6 @@ int padded(int size) {
 double probe(int k) {
   const unsigned hash = (static_cast<unsigned>(k) + 1) * 2654435761u;
   return (hash >> 8) / 8388608.0 - 1;
-}
-
-double smallestSingularValue(const CapacitanceMatrix::Pivot& pivot) {
-  return Eigen::JacobiSVD<CapacitanceMatrix::Pivot>(pivot).singularValues()[pivot.rows() - 1];
 }
 
 }  // namespace
@@ -125,12 +120,13 @@ CapacitanceMatrix::Addition CapacitanceMatrix::add(const ConstraintSwitch* switc
   Pivot schur = diagonal;
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j) schur(i, j) -= rowBorder.col(i).dot(left.col(j));
-  result.pivot = smallestSingularValue(schur) / diagonal.norm();
+  const Pivot schurInverse = schur.inverse();
+  result.pivot = count / (schurInverse.norm() * diagonal.norm());
   result.nearestNode = nearestNode(count);
   if (!(result.pivot >= kSmallestPivot)) return result;
   tainted_ = tainted_ || result.pivot < kTaintedPivot;
 
-  appendBorder(diagonal, schur.inverse());
+  appendBorder(diagonal, schurInverse);
   for (int i = 0; i < count; ++i) switches_.push_back(switches[i]);
   result.done = true;
   watchDrift();
@@ -179,26 +175,24 @@ void CapacitanceMatrix::swapSwitches(int a, int b) noexcept {
   }
 }
 
-/// Smallest singular value of the inverse's last block times the matrix's largest diagonal entry: 0
-/// where the rest is singular without it, not below about 1 where the last switches are
-/// independent of the rest.
-double CapacitanceMatrix::removalPivot(int count) const noexcept {
+/// Inverse of the block of the inverse that belongs to the last switches, and how it compares with
+/// the matrix's largest diagonal entry: 0 where the rest is singular without them, not below about
+/// 1 where they are independent of the rest.
+CapacitanceMatrix::Pivot CapacitanceMatrix::invertCorner(int count, double& pivot) const noexcept {
   const int n = size() - count;
   Pivot corner(count, count);
   for (int j = 0; j < count; ++j)
     for (int i = 0; i < count; ++i) corner(i, j) = column(inverse_, n + j)[n + i];
   double largest = 0;
   for (int k = 0; k < size(); ++k) largest = std::max(largest, std::abs(column(compliance_, k)[k]));
-  return smallestSingularValue(corner) * largest;
+  const Pivot cornerInverse = corner.inverse();
+  pivot = largest / cornerInverse.norm();
+  return cornerInverse;
 }
 
-void CapacitanceMatrix::removeLast(int count) noexcept {
-  const int n = size() - count;
-  Pivot corner(count, count);
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) corner(i, j) = column(inverse_, n + j)[n + i];
-  const Pivot cornerInverse = corner.inverse();
-  // inverse -= (columns) corner^-1 (rows), over what remains.
+/// inverse -= (its last columns) corner^-1 (its last rows), over what remains.
+void CapacitanceMatrix::removeLast(const Pivot& cornerInverse) noexcept {
+  const int count = static_cast<int>(cornerInverse.rows()), n = size() - count;
   for (int j = 0; j < count; ++j)
     for (int k = 0; k < padded(n); ++k) {
       double entry = 0;
@@ -218,12 +212,11 @@ bool CapacitanceMatrix::removeNode(int node) noexcept {
   for (int k = size() - 1; k >= 0; --k)
     if (switches_[k].node == node) swapSwitches(k, size() - 1 - count++);
   if (count == 0) return false;
-  if (count < size()) {
-    const double pivot = removalPivot(count);
-    if (!(pivot >= kSmallestPivot)) return false;
-    tainted_ = tainted_ || pivot < kTaintedPivot;
-  }
-  removeLast(count);
+  double pivot;
+  const Pivot cornerInverse = invertCorner(count, pivot);
+  if (!(pivot >= kSmallestPivot) && count < size()) return false;
+  tainted_ = tainted_ || !(pivot >= kTaintedPivot);
+  removeLast(cornerInverse);
   if (tainted_)
     refactor();
   else
