@@ -35,7 +35,8 @@ std::vector<double> freeNorms(vtkPolyData* surface) {
   return values;
 }
 
-/// From the 2nd to the 98th percentile, so that a few vertices by the support do not set the colours.
+/// From the 2nd to the 98th percentile, so that a few vertices by the support do not set the
+/// colours.
 std::array<double, 2> commonRange(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto at = [&](double part) {
@@ -67,9 +68,8 @@ void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const Ma
             "norm of K\n(N/m)",
             false,
             {}};
-  view.range = options.range.size() == 2
-                   ? std::array<double, 2>{options.range[0], options.range[1]}
-                   : commonRange(freeNorms(surface));
+  view.range = options.range.size() == 2 ? std::array<double, 2>{options.range[0], options.range[1]}
+                                         : commonRange(freeNorms(surface));
   picture.views = {view};
   drawPicture(picture, options.path);
 }

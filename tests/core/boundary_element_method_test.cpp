@@ -45,8 +45,6 @@ TEST_P(PoissonRatio, PointSourceOutsideTheBodyConvergesWithOrderTwo) {
   const double coarse = kelvinSourceError(2, GetParam()), fine = kelvinSourceError(3, GetParam());
   EXPECT_LT(fine, 0.005);
   EXPECT_GT(convergenceOrder(coarse, 162, fine, 642), 1.8);
-  RecordProperty("error", std::to_string(fine));
-  printf("A2 nu %g %.4f %.4f\n", GetParam(), 100 * coarse, 100 * fine);
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, PoissonRatio,
@@ -82,8 +80,6 @@ TEST_P(ExteriorPoissonRatio, RigidSphereInInfiniteSpaceResistsAsInClosedForm) {
   EXPECT_LT(std::abs(forceFine), 0.005);
   EXPECT_LT(std::abs(torqueFine), 0.01);
   EXPECT_GT(convergenceOrder(std::abs(forceCoarse), 162, std::abs(forceFine), 642), 1.8);
-  printf("A6 nu %g %.4f %.4f A7 %.4f %.4f\n", GetParam(), 100 * forceCoarse, 100 * forceFine,
-         100 * torqueCoarse, 100 * torqueFine);
 }
 
 /// A9, A10: radial displacement of a pressurised cavity; surface displacement of a cavity under
@@ -117,8 +113,6 @@ TEST_P(ExteriorPoissonRatio, CavitiesUnderPressureAndTensionOpenAsInClosedForm) 
   EXPECT_LT(tensionFine, 0.01);
   EXPECT_GT(convergenceOrder(pressureCoarse, 162, pressureFine, 642), 1.8);
   EXPECT_GT(convergenceOrder(tensionCoarse, 162, tensionFine, 642), 1.8);
-  printf("A9 nu %g %.4f %.4f A10 %.4f %.4f\n", GetParam(), 100 * pressureCoarse, 100 * pressureFine,
-         100 * tensionCoarse, 100 * tensionFine);
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, ExteriorPoissonRatio,
@@ -151,7 +145,6 @@ TEST_P(ThickSphere, InnerPressureOpensBothSurfacesAsInClosedForm) {
   const double error =
       relativeError(solved, exact, model, [&](int v) { return !model.conditions().isFixed(v); });
   EXPECT_LT(error, 0.02);
-  printf("A8 nu %g %.4f\n", nu, 100 * error);
 }
 INSTANTIATE_TEST_SUITE_P(Materials, ThickSphere, testing::Values(0.0, 0.3, 0.45, 0.499, 0.5));
 

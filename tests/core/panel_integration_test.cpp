@@ -146,12 +146,49 @@ TEST_P(TriangleIntegrals, ClosedFormsMatchSubdivisionNearTheTriangle) {
   // Rounding grows with the slope of the hats, but a needle's share of any sum shrinks likewise.
   EXPECT_LT(height * worstU, 1e-7);
   EXPECT_LT(height * worstT, 1e-7);
-  printf("height %g nu %g: U %.2e T %.2e\n", height, nu, worstU, worstT);
 }
 
 INSTANTIATE_TEST_SUITE_P(Aspects, TriangleIntegrals,
                          testing::Combine(testing::Values(0.9, 0.1, 1e-3, 1e-6),
                                           testing::Values(-0.5, 0.3, 0.5)));
+
+TEST(TriangleIntegralsInThePlane, AreRightOnTheLinesThroughTheEdgesToo) {
+  const Eigen::Matrix3d corners = triangleOfAspect(0.8);
+  const BodySurface body = tetrahedronOn(corners, 0.3);
+  Eigen::Matrix3d local;
+  for (int k = 0; k < 3; ++k) local.col(k) = body.points.col(body.triangles(k, 0));
+  for (const Eigen::Vector3d& at :
+       {Eigen::Vector3d(2, -1, 0), Eigen::Vector3d(0, -0.5, 1.5), Eigen::Vector3d(-0.3, 1.3, 0),
+        Eigen::Vector3d(1.5, 0.2, -0.7), Eigen::Vector3d(0.6, 0.6, -0.2)}) {
+    const Eigen::Vector3d x = local * at;
+    Blocks exact;
+    for (int k = 0; k < 3; ++k) exact.h[k].setZero(), exact.g[k].setZero();
+    integrateBruteForce(x, local, Eigen::Matrix3d::Identity(), body.normals.col(0), 0.3, 0, exact);
+    const Blocks closed = integrateByPanel(body, x, 0);
+    EXPECT_LT(largestError(closed, exact, false), 1e-10) << at.transpose();
+    EXPECT_LT(largestError(closed, exact, true), 1e-10) << at.transpose();
+  }
+}
+
+TEST(TriangleIntegralsFarAway, MeetTheToleranceThatChoseTheRule) {
+  const Eigen::Matrix3d corners = triangleOfAspect(0.8);
+  const BodySurface body = tetrahedronOn(corners, 0.3);
+  Eigen::Matrix3d local;
+  for (int k = 0; k < 3; ++k) local.col(k) = body.points.col(body.triangles(k, 0));
+  const double scale = 1 / body.length;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8})
+    for (const double distance : {3.0, 6.0, 12.0, 40.0}) {
+      const Eigen::Vector3d x =
+          local.rowwise().mean() + distance * scale * Eigen::Vector3d(0.6, -0.5, 0.62);
+      Blocks exact;
+      for (int k = 0; k < 3; ++k) exact.h[k].setZero(), exact.g[k].setZero();
+      integrateBruteForce(x, local, Eigen::Matrix3d::Identity(), body.normals.col(0), 0.3, 0,
+                          exact);
+      // The tolerance is one of a whole equation, in which this triangle weighs about 1/distance.
+      const Blocks integrated = integrateByPanel(body, x, tolerance);
+      EXPECT_LT(largestError(integrated, exact, true), 20 * distance * tolerance + 1e-11);
+    }
+}
 
 }  // namespace
 }  // namespace palpate::bem

@@ -76,14 +76,16 @@ class Assembler {
     std::vector<std::unique_ptr<InfluencePanels::Workspace>> work(threads_);
     std::vector<double> rotation(threads_, 0);
     parallelFor(
-        panels_.panelCount(), threads_,
-        [&](int panel, int thread) {
+        panels_.runCount(), threads_,
+        [&](int run, int thread) {
           if (!work[thread]) work[thread] = std::make_unique<InfluencePanels::Workspace>(panels_);
-          panels_.compute(panel, *work[thread]);
-          store(panel, *work[thread]);
-          rotation[thread] = std::max(rotation[thread], rotationResidual(panel, *work[thread]));
+          for (int panel = panels_.firstPanel(run); panel < panels_.endPanel(run); ++panel) {
+            panels_.compute(panel, *work[thread]);
+            store(panel, *work[thread]);
+            rotation[thread] = std::max(rotation[thread], rotationResidual(panel, *work[thread]));
+          }
         },
-        [&](int begun) { progress.report(double(begun) / panels_.panelCount(), "assemble"); });
+        [&](int begun) { progress.report(double(begun) / panels_.runCount(), "assemble"); });
     const double size = body_.points.colwise().norm().maxCoeff();
     system_.rotationDefect = *std::max_element(rotation.begin(), rotation.end()) / size;
     replaceByIdentities();

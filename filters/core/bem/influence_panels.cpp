@@ -3,7 +3,6 @@
 
 #include "bem/influence_panels.h"
 
-#include <cstring>
 #include <Eigen/Geometry>
 
 #include "bem/spatial_order.h"
@@ -59,6 +58,10 @@ InfluencePanels::InfluencePanels(const BodySurface& body, const CollocationSchem
                                  double tolerance)
     : body_(body), scheme_(scheme), positionOfTriangle_(body.triangleCount()) {
   choosePanelRules(tolerance, nearRule_, farRule_);
+  // Long runs integrate fewer points twice; this length keeps a run's points below a tenth of the
+  // memory of a system matrix. Equations at vertices alone share none.
+  const bool shares = scheme.kind == Collocation::Averaged;
+  panelsOfRun_ = shares ? std::clamp(body.vertexCount() / 640, 1, 8) : 1;
   Eigen::Matrix3Xd centroids(3, body.triangleCount());
   for (int f = 0; f < body.triangleCount(); ++f) centroids.col(f) = body.centroid(f);
   for (int f : spatialOrder(centroids)) {
@@ -68,21 +71,48 @@ InfluencePanels::InfluencePanels(const BodySurface& body, const CollocationSchem
 }
 
 InfluencePanels::Workspace::Workspace(const InfluencePanels& panels)
-    : h_(std::size_t(9 * kLanes) * panels.body_.vertexCount()),
-      g_(std::size_t(6 * kLanes) * panels.body_.nodes.count()),
-      pointH_(h_.size()),
-      pointG_(g_.size()),
-      ownIndex_(panels.triangles_.size(), -1) {
-  std::memset(pointH_.data(), 0, pointH_.bytes());
-  std::memset(pointG_.data(), 0, pointG_.bytes());
-}
+    : firstG_(9 * std::size_t(panels.body_.vertexCount())),
+      rows_(kLanes * (firstG_ + 6 * std::size_t(panels.body_.nodes.count()))),
+      place_(panels.scheme_.points.size()),
+      ownIndex_(panels.triangles_.size(), -1) {}
 
 void InfluencePanels::compute(int panel, Workspace& work) const {
-  // The points of the panel's equations, once each, neighbours together.
+  const CollocationEquation* equations = &scheme_.equations[std::size_t(panel) * kLanes];
+  const int lanes = laneCount(panel);
+  const bool onePointEach =
+      std::all_of(equations, equations + lanes, [](const auto& e) { return e.terms.size() == 1; });
+  if (onePointEach) {
+    std::vector<int> points;
+    for (int lane = 0; lane < lanes; ++lane) points.push_back(equations[lane].terms[0].point);
+    return integratePoints(points, work, work.rows_.data());
+  }
+  if (work.run_ != panel / panelsOfRun_) integrateRun(panel / panelsOfRun_, work);
+
   std::vector<int> points;
-  for (int lane = 0; lane < laneCount(panel); ++lane)
-    for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
-      points.push_back(term.point);
+  for (int lane = 0; lane < lanes; ++lane)
+    for (const auto& term : equations[lane].terms) points.push_back(term.point);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<PointShare> shares;
+  for (int point : points) {
+    const auto [group, lane] = work.place_[point];
+    shares.push_back({work.groups_[group].data() + lane, {}});
+  }
+  for (int lane = 0; lane < lanes; ++lane)
+    for (const auto& term : equations[lane].terms) {
+      const auto at = std::lower_bound(points.begin(), points.end(), term.point);
+      shares[at - points.begin()].weight[lane] += term.weight;
+    }
+  averagePoints(shares.data(), static_cast<int>(shares.size()),
+                static_cast<long>(work.rows_.size() / kLanes), work.rows_.data());
+}
+
+/// Integrates the points of a run's equations, once each, neighbours together.
+void InfluencePanels::integrateRun(int run, Workspace& work) const {
+  std::vector<int> points;
+  const int end = std::min(endPanel(run) * kLanes, scheme_.equationCount());
+  for (int e = firstPanel(run) * kLanes; e < end; ++e)
+    for (const auto& term : scheme_.equations[e].terms) points.push_back(term.point);
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   Eigen::Matrix3Xd positions(3, points.size());
@@ -91,20 +121,16 @@ void InfluencePanels::compute(int panel, Workspace& work) const {
   const std::vector<int> order = spatialOrder(positions);
 
   for (std::size_t first = 0; first < order.size(); first += kLanes) {
-    std::vector<int> group;
-    for (std::size_t i = first; i < std::min(first + kLanes, order.size()); ++i)
-      group.push_back(points[order[i]]);
-    integratePoints(group, work, work.pointH_.data(), work.pointG_.data());
-    double weights[kLanes * kLanes] = {};  // [point][equation]
-    for (int lane = 0; lane < laneCount(panel); ++lane)
-      for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
-        for (std::size_t p = 0; p < group.size(); ++p)
-          if (group[p] == term.point) weights[p * kLanes + lane] += term.weight;
-    averagePoints(weights, 9L * body_.vertexCount(), first == 0, work.pointH_.data(),
-                  work.h_.data());
-    averagePoints(weights, 6L * body_.nodes.count(), first == 0, work.pointG_.data(),
-                  work.g_.data());
+    const std::size_t group = first / kLanes;
+    if (group == work.groups_.size()) work.groups_.emplace_back(work.rows_.size());
+    std::vector<int> members;
+    for (std::size_t i = first; i < std::min(first + kLanes, order.size()); ++i) {
+      work.place_[points[order[i]]] = {static_cast<int>(group), static_cast<int>(i - first)};
+      members.push_back(points[order[i]]);
+    }
+    integratePoints(members, work, work.groups_[group].data());
   }
+  work.run_ = run;
 }
 
 void InfluencePanels::markOwnTriangles(const std::vector<int>& points, Workspace& work) const {
@@ -124,10 +150,10 @@ void InfluencePanels::markOwnTriangles(const std::vector<int>& points, Workspace
   }
 }
 
-/// Rows of H and G at up to kLanes points, added to zeros; lanes without a point repeat the last
-/// one.
-void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace& work, double* h,
-                                      double* g) const {
+/// Rows of H and G at up to kLanes points, overwritten; lanes without a point repeat the last one.
+void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace& work,
+                                      double* rows) const {
+  std::fill_n(rows, work.rows_.size(), 0.0);
   markOwnTriangles(points, work);
   PanelTask task;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -142,8 +168,8 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
   task.nearRule = nearRule_;
   task.farRule = farRule_;
   task.poissonRatio = body_.poissonRatio;
-  task.h = h;
-  task.g = g;
+  task.h = rows;
+  task.g = rows + work.firstG_ * kLanes;
   task.closedFormCount = &closedFormCount;
   integratePanel(task);
   closedFormCount_ += closedFormCount;
@@ -151,7 +177,7 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
   for (int point : points)
     for (const CollocationPoint::Own& own : scheme_.points[point].own)
       work.ownIndex_[positionOfTriangle_[own.triangle]] = -1;
-  closeByTranslation(points, h);
+  closeByTranslation(points, rows);
 }
 
 /// Adds to the blocks of the points' own vertices what rigid translation asks for.

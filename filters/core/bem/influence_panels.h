@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 #include <vector>
 
 #include "bem/collocation_scheme.h"
@@ -13,7 +14,9 @@
 
 namespace palpate::bem {
 
-/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight equations at a time. H is
+/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight equations at a time. Panels
+/// that follow each other form runs, as equations of neighbours share collocation points: a run's
+/// points are integrated once and kept until its panels have been averaged from them. H is
 /// complete: the free term and the strongly singular integrals follow from rigid translation, H 1 =
 /// 0 in an interior and H 1 = 1 in an exterior domain.
 class InfluencePanels {
@@ -28,24 +31,32 @@ class InfluencePanels {
     return std::min(kLanes, scheme_.equationCount() - panel * kLanes);
   }
 
+  /// Runs of panels, to be computed one panel after the other with one workspace.
+  int runCount() const { return (panelCount() + panelsOfRun_ - 1) / panelsOfRun_; }
+  int firstPanel(int run) const { return run * panelsOfRun_; }
+  int endPanel(int run) const { return std::min((run + 1) * panelsOfRun_, panelCount()); }
+
   /// Memory for one thread, and the result of compute().
   class Workspace {
    public:
     explicit Workspace(const InfluencePanels& panels);
     /// Entry (i, j) of the 3 by 3 block of H for a vertex: kLanes values, one per equation.
     const double* h(int vertex, int i, int j) const {
-      return h_.data() + (9 * std::size_t(vertex) + 3 * i + j) * kLanes;
+      return rows_.data() + (9 * std::size_t(vertex) + 3 * i + j) * kLanes;
     }
     /// Entry (i, j) of the block of G for a traction node; the block is symmetric.
     const double* g(int node, int i, int j) const {
       static constexpr int index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-      return g_.data() + (6 * std::size_t(node) + index[i][j]) * kLanes;
+      return rows_.data() + (firstG_ + 6 * std::size_t(node) + index[i][j]) * kLanes;
     }
 
    private:
     friend class InfluencePanels;
-    AlignedBuffer<double> h_, g_;            // of the equations
-    AlignedBuffer<double> pointH_, pointG_;  // at kLanes points
+    std::size_t firstG_;                         // rows of H before those of G
+    AlignedBuffer<double> rows_;                 // of the equations
+    int run_ = -1;                               // whose points are held
+    std::vector<AlignedBuffer<double>> groups_;  // rows at kLanes points each
+    std::vector<std::pair<int, int>> place_;     // group and lane of each of the run's points
     std::vector<int> ownIndex_;
     std::vector<OwnTriangle> own_;
   };
@@ -63,7 +74,8 @@ class InfluencePanels {
   long closedFormCount() const { return closedFormCount_; }
 
  private:
-  void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
+  void integrateRun(int run, Workspace& work) const;
+  void integratePoints(const std::vector<int>& points, Workspace& work, double* rows) const;
   void markOwnTriangles(const std::vector<int>& points, Workspace& work) const;
   void closeByTranslation(const std::vector<int>& points, double* h) const;
 
@@ -72,6 +84,7 @@ class InfluencePanels {
   std::vector<PanelTriangle> triangles_;  // in spatial order
   std::vector<int> positionOfTriangle_;
   PanelRule nearRule_, farRule_;
+  int panelsOfRun_;
   mutable std::atomic<long> closedFormCount_{0}, pairCount_{0};
 };
 

@@ -3,6 +3,8 @@
 
 // Compiled once per instruction set; see panel_integration.h for what it computes.
 
+#include <type_traits>
+
 #include "bem/closed_form_moments.h"
 #include "bem/panel_integration.h"
 #include "simd/simd.h"
@@ -23,9 +25,18 @@ struct KernelValues {
   Batch skew[3];  ///< xy, xz, yz
 };
 
-/// Where a panel's values of one vertex of a triangle go.
+/// Where a panel's values of one vertex of a triangle go, and which lanes take part.
 struct Blocks {
   double *h, *g;
+  Batch mask;  ///< 1 or 0
+};
+
+/// How the lanes of a panel integrate a triangle: a 1 in one of the three for each lane. The choice
+/// is one of point and triangle alone, so that results do not depend on how points are grouped.
+struct LaneChoice {
+  alignas(64) double far[kLanes], near[kLanes], closedForm[kLanes];
+  bool anyFar = false, anyNear = false, anyClosedForm = false;
+  bool agree() const { return anyFar + anyNear + anyClosedForm == 1; }
 };
 
 class PanelKernel {
@@ -36,18 +47,30 @@ class PanelKernel {
         factorU_(1 / (16 * kPi * (1 - nu_))),
         factorT_(-1 / (8 * kPi * (1 - nu_))) {}
 
+  /// @param mask  kLanes, 1 for the lanes that take part; nullptr for all.
   template <int Triples>
-  void addByRule(const PanelTriangle& t, const PanelRule& rule) const {
+  void addByRule(const PanelTriangle& t, const PanelRule& rule, const double* mask) const {
     constexpr bool hasCentroid = Triples == 2;
     constexpr int count = 3 * Triples + hasCentroid;
     double y[count][3];
     placePoints<Triples>(t, rule, y);
     const double skewNormal[3] = {-(1 - 2 * nu_) * t.normal[0], -(1 - 2 * nu_) * t.normal[1],
                                   -(1 - 2 * nu_) * t.normal[2]};
+    // Lanes that take no part stand where the kernels are tame.
+    const double aside[3] = {t.centroid[0] + 4 * t.radius * t.normal[0],
+                             t.centroid[1] + 4 * t.radius * t.normal[1],
+                             t.centroid[2] + 4 * t.radius * t.normal[2]};
     for (int lane = 0; lane < kLanes; lane += kWidth) {
-      const Batch px = Batch::load_unaligned(task_.x[0] + lane);
-      const Batch py = Batch::load_unaligned(task_.x[1] + lane);
-      const Batch pz = Batch::load_unaligned(task_.x[2] + lane);
+      if (mask && !anyOf(mask + lane)) continue;
+      Batch px = Batch::load_unaligned(task_.x[0] + lane);
+      Batch py = Batch::load_unaligned(task_.x[1] + lane);
+      Batch pz = Batch::load_unaligned(task_.x[2] + lane);
+      if (mask) {
+        const auto taken = Batch::load_unaligned(mask + lane) > Batch(0.5);
+        px = xsimd::select(taken, px, Batch(aside[0]));
+        py = xsimd::select(taken, py, Batch(aside[1]));
+        pz = xsimd::select(taken, pz, Batch(aside[2]));
+      }
       const Batch height = t.normal[0] * (t.vertex[0][0] - px) +
                            t.normal[1] * (t.vertex[0][1] - py) +
                            t.normal[2] * (t.vertex[0][2] - pz);
@@ -55,14 +78,16 @@ class PanelKernel {
       for (int q = 0; q < count; ++q)
         evaluate(y[q][0] - px, y[q][1] - py, y[q][2] - pz, height, skewNormal, values[q]);
       Blocks blocks[3];
-      for (int k = 0; k < 3; ++k) blocks[k] = blocksOf(t, k, lane);
+      for (int k = 0; k < 3; ++k) blocks[k] = blocksOf(t, k, lane, mask);
       addSums<Triples>(rule, values, t.area, blocks);
     }
   }
 
-  void addInClosedForm(const PanelTriangle& t, const bem::OwnTriangle* own) const {
+  void addInClosedForm(const PanelTriangle& t, const bem::OwnTriangle* own,
+                       const double* mask) const {
     const double shear = 1 - 2 * nu_;
     for (int lane = 0; lane < kLanes; lane += kWidth) {
+      if (mask && !anyOf(mask + lane)) continue;
       const ClosedFormMoments moments(task_, t, own, lane);
       for (int k = 0; k < 3; ++k) {
         const Moments m = moments.ofHat(k);
@@ -77,7 +102,7 @@ class PanelKernel {
         v.skew[0] = -shear * (m.three[0] * t.normal[1] - m.three[1] * t.normal[0]);
         v.skew[1] = -shear * (m.three[0] * t.normal[2] - m.three[2] * t.normal[0]);
         v.skew[2] = -shear * (m.three[1] * t.normal[2] - m.three[2] * t.normal[1]);
-        const Blocks blocks = blocksOf(t, k, lane);
+        const Blocks blocks = blocksOf(t, k, lane, mask);
         for (int c = 0; c < 6; ++c) addU(blocks, c, 1, v.u[c]);
         for (int c = 0; c < 6; ++c) addT(blocks, c, 1, v.t[c], v.skew);
       }
@@ -176,9 +201,15 @@ class PanelKernel {
     }
   }
 
-  Blocks blocksOf(const PanelTriangle& t, int k, int lane) const {
+  Blocks blocksOf(const PanelTriangle& t, int k, int lane, const double* mask) const {
     return {task_.h + 9 * kLanes * static_cast<long>(t.vertexIndex[k]) + lane,
-            task_.g + 6 * kLanes * static_cast<long>(t.tractionNode[k]) + lane};
+            task_.g + 6 * kLanes * static_cast<long>(t.tractionNode[k]) + lane,
+            mask ? Batch::load_unaligned(mask + lane) : Batch(1)};
+  }
+  static bool anyOf(const double* mask) {
+    double sum = 0;
+    for (int i = 0; i < kWidth; ++i) sum += mask[i];
+    return sum > 0;
   }
 
   static void accumulate(double* block, int component, const Batch& factor, const Batch& value) {
@@ -186,14 +217,14 @@ class PanelKernel {
     xsimd::fma(factor, value, Batch::load_unaligned(target)).store_unaligned(target);
   }
   void addU(const Blocks& blocks, int c, double area, const Batch& value) const {
-    accumulate(blocks.g, c, Batch(factorU_ * area), value);
+    accumulate(blocks.g, c, factorU_ * area * blocks.mask, value);
   }
   /// Component c of the symmetric part, with the skew part where it is off the diagonal.
   void addT(const Blocks& blocks, int c, double area, const Batch& symmetric,
             const Batch* skew) const {
     static constexpr int upper[6] = {0, 1, 2, 4, 5, 8}, lower[6] = {0, 3, 6, 4, 7, 8};
     static constexpr int skewOf[6] = {-1, 0, 1, -1, 2, -1};
-    const Batch factor(factorT_ * area);
+    const Batch factor = factorT_ * area * blocks.mask;
     if (skewOf[c] < 0) {
       accumulate(blocks.h, upper[c], factor, symmetric);
     } else {
@@ -206,20 +237,25 @@ class PanelKernel {
   double nu_, factorU_, factorT_;
 };
 
-/// Square of the distance from a triangle's centroid to the nearest point of the panel.
-double nearestSquared(const PanelTask& task, const PanelTriangle& t) {
-  Batch nearest(1e300);
+/// @param near2, far2  squares of the rules' smallest distances, in triangle radii.
+LaneChoice chooseRules(const PanelTask& task, const PanelTriangle& t, double near2, double far2) {
+  LaneChoice choice;
+  const Batch near(near2 * t.radius * t.radius), far(far2 * t.radius * t.radius);
+  const Batch one(1), zero(0);
   for (int lane = 0; lane < kLanes; lane += kWidth) {
     const Batch dx = Batch::load_unaligned(task.x[0] + lane) - t.centroid[0];
     const Batch dy = Batch::load_unaligned(task.x[1] + lane) - t.centroid[1];
     const Batch dz = Batch::load_unaligned(task.x[2] + lane) - t.centroid[2];
-    nearest = xsimd::min(nearest, xsimd::fma(dx, dx, xsimd::fma(dy, dy, dz * dz)));
+    const Batch distance2 = xsimd::fma(dx, dx, xsimd::fma(dy, dy, dz * dz));
+    const auto isFar = distance2 >= far, isClose = distance2 < near;
+    xsimd::select(isFar, one, zero).store_unaligned(choice.far + lane);
+    xsimd::select(isClose, one, zero).store_unaligned(choice.closedForm + lane);
+    xsimd::select(isFar || isClose, zero, one).store_unaligned(choice.near + lane);
+    choice.anyFar |= xsimd::any(isFar);
+    choice.anyClosedForm |= xsimd::any(isClose);
+    choice.anyNear |= !xsimd::all(isFar || isClose);
   }
-  double values[kWidth];
-  nearest.store_unaligned(values);
-  double smallest = values[0];
-  for (int i = 1; i < kWidth; ++i) smallest = values[i] < smallest ? values[i] : smallest;
-  return smallest;
+  return choice;
 }
 
 }  // namespace
@@ -230,35 +266,42 @@ void integratePanel(const PanelTask& task) {
   const double far2 = task.farRule.smallestDistance * task.farRule.smallestDistance;
   for (int f = 0; f < task.triangleCount; ++f) {
     const PanelTriangle& t = task.triangles[f];
-    const double distance2 = nearestSquared(task, t) / (t.radius * t.radius);
-    if (distance2 >= far2) {
-      kernel.addByRule<1>(t, task.farRule);
-    } else if (distance2 >= near2) {
-      kernel.addByRule<2>(t, task.nearRule);
-    } else {
-      kernel.addInClosedForm(t, task.ownIndex[f] < 0 ? nullptr : task.own + task.ownIndex[f]);
+    const LaneChoice choice = chooseRules(task, t, near2, far2);
+    const bool all = choice.agree();
+    if (choice.anyFar) kernel.addByRule<1>(t, task.farRule, all ? nullptr : choice.far);
+    if (choice.anyNear) kernel.addByRule<2>(t, task.nearRule, all ? nullptr : choice.near);
+    if (choice.anyClosedForm) {
+      kernel.addInClosedForm(t, task.ownIndex[f] < 0 ? nullptr : task.own + task.ownIndex[f],
+                             all ? nullptr : choice.closedForm);
       ++*task.closedFormCount;
     }
   }
 }
 
-void averagePoints(const double* weights, long count, bool first, double* points,
-                   double* equations) {
+void averagePoints(const bem::PointShare* shares, int shareCount, long rows, double* equations) {
   constexpr int batches = kLanes / kWidth;
-  Batch weight[kLanes][batches];
-  for (int p = 0; p < kLanes; ++p)
-    for (int b = 0; b < batches; ++b)
-      weight[p][b] = Batch::load_unaligned(weights + p * kLanes + b * kWidth);
-  for (long c = 0; c < count; ++c) {
-    double* source = points + c * kLanes;
-    double* target = equations + c * kLanes;
-    for (int b = 0; b < batches; ++b) {
-      Batch sum = first ? Batch(0) : Batch::load_unaligned(target + b * kWidth);
-      for (int p = 0; p < kLanes; ++p) sum = xsimd::fma(weight[p][b], Batch(source[p]), sum);
-      sum.store_unaligned(target + b * kWidth);
+  constexpr int together = kWidth >= 4 ? 4 : 2;  // rows whose sums stay in registers
+  const auto average = [&](auto count, long row) {
+    constexpr int rowCount = decltype(count)::value;
+    Batch sum[rowCount][batches];
+    for (int k = 0; k < rowCount; ++k)
+      for (int b = 0; b < batches; ++b) sum[k][b] = Batch(0);
+    for (int s = 0; s < shareCount; ++s) {
+      const double* values = shares[s].values + row * kLanes;
+      for (int b = 0; b < batches; ++b) {
+        const Batch weight = Batch::load_unaligned(shares[s].weight + b * kWidth);
+        for (int k = 0; k < rowCount; ++k)
+          sum[k][b] = xsimd::fma(weight, Batch(values[k * kLanes]), sum[k][b]);
+      }
     }
-    for (int b = 0; b < batches; ++b) Batch(0).store_unaligned(source + b * kWidth);
-  }
+    for (int k = 0; k < rowCount; ++k)
+      for (int b = 0; b < batches; ++b)
+        sum[k][b].store_unaligned(equations + (row + k) * kLanes + b * kWidth);
+  };
+  long row = 0;
+  for (; row + together <= rows; row += together)
+    average(std::integral_constant<int, together>(), row);
+  for (; row < rows; ++row) average(std::integral_constant<int, 1>(), row);
 }
 
 }  // namespace palpate::PALPATE_SIMD_NAMESPACE
