@@ -3,6 +3,7 @@
 
 #include "bem/influence_panels.h"
 
+#include <cstring>
 #include <Eigen/Geometry>
 
 #include "bem/spatial_order.h"
@@ -58,61 +59,59 @@ InfluencePanels::InfluencePanels(const BodySurface& body, const CollocationSchem
                                  double tolerance)
     : body_(body), scheme_(scheme), positionOfTriangle_(body.triangleCount()) {
   choosePanelRules(tolerance, nearRule_, farRule_);
-  // Long runs integrate fewer points twice; this length keeps a run's points below a tenth of the
-  // memory of a system matrix. Equations at vertices alone share none.
-  const bool shares = scheme.kind == Collocation::Averaged;
-  panelsOfRun_ = shares ? std::clamp(body.vertexCount() / 640, 1, 8) : 1;
   Eigen::Matrix3Xd centroids(3, body.triangleCount());
   for (int f = 0; f < body.triangleCount(); ++f) centroids.col(f) = body.centroid(f);
   for (int f : spatialOrder(centroids)) {
     positionOfTriangle_[f] = static_cast<int>(triangles_.size());
     triangles_.push_back(makePanelTriangle(body, f));
   }
+  placeOfVertex_.assign(body.vertexCount(), -1);
+  placeOfNode_.assign(body.nodes.count(), -1);
+  int vertices = 0, nodes = 0;
+  for (PanelTriangle& t : triangles_)
+    for (int k = 0; k < 3; ++k) {
+      int& vertexPlace = placeOfVertex_[t.vertexIndex[k]];
+      if (vertexPlace < 0) vertexPlace = vertices++;
+      t.vertexIndex[k] = vertexPlace;
+      int& nodePlace = placeOfNode_[t.tractionNode[k]];
+      if (nodePlace < 0) nodePlace = nodes++;
+      t.tractionNode[k] = nodePlace;
+    }
 }
 
 InfluencePanels::Workspace::Workspace(const InfluencePanels& panels)
-    : firstG_(9 * std::size_t(panels.body_.vertexCount())),
-      rows_(kLanes * (firstG_ + 6 * std::size_t(panels.body_.nodes.count()))),
-      place_(panels.scheme_.points.size()),
-      ownIndex_(panels.triangles_.size(), -1) {}
-
-void InfluencePanels::compute(int panel, Workspace& work) const {
-  const CollocationEquation* equations = &scheme_.equations[std::size_t(panel) * kLanes];
-  const int lanes = laneCount(panel);
-  const bool onePointEach =
-      std::all_of(equations, equations + lanes, [](const auto& e) { return e.terms.size() == 1; });
-  if (onePointEach) {
-    std::vector<int> points;
-    for (int lane = 0; lane < lanes; ++lane) points.push_back(equations[lane].terms[0].point);
-    return integratePoints(points, work, work.rows_.data());
-  }
-  if (work.run_ != panel / panelsOfRun_) integrateRun(panel / panelsOfRun_, work);
-
-  std::vector<int> points;
-  for (int lane = 0; lane < lanes; ++lane)
-    for (const auto& term : equations[lane].terms) points.push_back(term.point);
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<PointShare> shares;
-  for (int point : points) {
-    const auto [group, lane] = work.place_[point];
-    shares.push_back({work.groups_[group].data() + lane, {}});
-  }
-  for (int lane = 0; lane < lanes; ++lane)
-    for (const auto& term : equations[lane].terms) {
-      const auto at = std::lower_bound(points.begin(), points.end(), term.point);
-      shares[at - points.begin()].weight[lane] += term.weight;
-    }
-  averagePoints(shares.data(), static_cast<int>(shares.size()),
-                static_cast<long>(work.rows_.size() / kLanes), work.rows_.data());
+    : panels_(panels),
+      h_(std::size_t(9 * kLanes) * panels.body_.vertexCount()),
+      g_(std::size_t(6 * kLanes) * panels.body_.nodes.count()),
+      pointH_(h_.size()),
+      pointG_(g_.size()),
+      ownIndex_(panels.triangles_.size(), -1) {
+  std::memset(pointH_.data(), 0, pointH_.bytes());
+  std::memset(pointG_.data(), 0, pointG_.bytes());
 }
 
-/// Integrates the points of a run's equations, once each, neighbours together.
-void InfluencePanels::integrateRun(int run, Workspace& work) const {
+/// The rows of a panel whose equations are each taken at one point: nothing to average.
+/// @return false if they are not.
+bool InfluencePanels::computeAtPoints(int panel, Workspace& work) const {
   std::vector<int> points;
-  const int end = std::min(endPanel(run) * kLanes, scheme_.equationCount());
-  for (int e = firstPanel(run) * kLanes; e < end; ++e)
-    for (const auto& term : scheme_.equations[e].terms) points.push_back(term.point);
+  for (int lane = 0; lane < laneCount(panel); ++lane) {
+    const auto& terms = scheme_.equations[panel * kLanes + lane].terms;
+    if (terms.size() != 1) return false;
+    points.push_back(terms[0].point);
+  }
+  std::memset(work.h_.data(), 0, work.h_.bytes());
+  std::memset(work.g_.data(), 0, work.g_.bytes());
+  integratePoints(points, work, work.h_.data(), work.g_.data());
+  return true;
+}
+
+void InfluencePanels::compute(int panel, Workspace& work) const {
+  if (computeAtPoints(panel, work)) return;
+  // The points of the panel's equations, once each, neighbours together.
+  std::vector<int> points;
+  for (int lane = 0; lane < laneCount(panel); ++lane)
+    for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
+      points.push_back(term.point);
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   Eigen::Matrix3Xd positions(3, points.size());
@@ -121,16 +120,20 @@ void InfluencePanels::integrateRun(int run, Workspace& work) const {
   const std::vector<int> order = spatialOrder(positions);
 
   for (std::size_t first = 0; first < order.size(); first += kLanes) {
-    const std::size_t group = first / kLanes;
-    if (group == work.groups_.size()) work.groups_.emplace_back(work.rows_.size());
-    std::vector<int> members;
-    for (std::size_t i = first; i < std::min(first + kLanes, order.size()); ++i) {
-      work.place_[points[order[i]]] = {static_cast<int>(group), static_cast<int>(i - first)};
-      members.push_back(points[order[i]]);
-    }
-    integratePoints(members, work, work.groups_[group].data());
+    std::vector<int> group;
+    for (std::size_t i = first; i < std::min(first + kLanes, order.size()); ++i)
+      group.push_back(points[order[i]]);
+    integratePoints(group, work, work.pointH_.data(), work.pointG_.data());
+    double weights[kLanes * kLanes] = {};  // [point][equation]
+    for (int lane = 0; lane < laneCount(panel); ++lane)
+      for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
+        for (std::size_t p = 0; p < group.size(); ++p)
+          if (group[p] == term.point) weights[p * kLanes + lane] += term.weight;
+    averagePoints(weights, 9L * body_.vertexCount(), first == 0, work.pointH_.data(),
+                  work.h_.data());
+    averagePoints(weights, 6L * body_.nodes.count(), first == 0, work.pointG_.data(),
+                  work.g_.data());
   }
-  work.run_ = run;
 }
 
 void InfluencePanels::markOwnTriangles(const std::vector<int>& points, Workspace& work) const {
@@ -150,10 +153,10 @@ void InfluencePanels::markOwnTriangles(const std::vector<int>& points, Workspace
   }
 }
 
-/// Rows of H and G at up to kLanes points, overwritten; lanes without a point repeat the last one.
-void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace& work,
-                                      double* rows) const {
-  std::fill_n(rows, work.rows_.size(), 0.0);
+/// Rows of H and G at up to kLanes points, added to zeros; lanes without a point repeat the last
+/// one.
+void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace& work, double* h,
+                                      double* g) const {
   markOwnTriangles(points, work);
   PanelTask task;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -168,8 +171,8 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
   task.nearRule = nearRule_;
   task.farRule = farRule_;
   task.poissonRatio = body_.poissonRatio;
-  task.h = rows;
-  task.g = rows + work.firstG_ * kLanes;
+  task.h = h;
+  task.g = g;
   task.closedFormCount = &closedFormCount;
   integratePanel(task);
   closedFormCount_ += closedFormCount;
@@ -177,7 +180,7 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
   for (int point : points)
     for (const CollocationPoint::Own& own : scheme_.points[point].own)
       work.ownIndex_[positionOfTriangle_[own.triangle]] = -1;
-  closeByTranslation(points, rows);
+  closeByTranslation(points, h);
 }
 
 /// Adds to the blocks of the points' own vertices what rigid translation asks for.
@@ -195,7 +198,7 @@ void InfluencePanels::closeByTranslation(const std::vector<int>& points, double*
   for (std::size_t lane = 0; lane < points.size(); ++lane) {
     const CollocationPoint::Own& own = scheme_.points[points[lane]].own.front();
     for (int k = 0; k < 3; ++k) {
-      const std::size_t v = body_.triangles(k, own.triangle);
+      const std::size_t v = placeOfVertex_[body_.triangles(k, own.triangle)];
       for (int c = 0; c < 9; ++c)
         h[(9 * v + c) * kLanes + lane] -= own.barycentric[k] * sum[c * kLanes + lane];
     }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <utility>
 #include <vector>
 
 #include "bem/collocation_scheme.h"
@@ -14,9 +13,7 @@
 
 namespace palpate::bem {
 
-/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight equations at a time. Panels
-/// that follow each other form runs, as equations of neighbours share collocation points: a run's
-/// points are integrated once and kept until its panels have been averaged from them. H is
+/// The influence matrices of [JP01] eq. 8, H u = G p, a panel of eight equations at a time. H is
 /// complete: the free term and the strongly singular integrals follow from rigid translation, H 1 =
 /// 0 in an interior and H 1 = 1 in an exterior domain.
 class InfluencePanels {
@@ -31,32 +28,27 @@ class InfluencePanels {
     return std::min(kLanes, scheme_.equationCount() - panel * kLanes);
   }
 
-  /// Runs of panels, to be computed one panel after the other with one workspace.
-  int runCount() const { return (panelCount() + panelsOfRun_ - 1) / panelsOfRun_; }
-  int firstPanel(int run) const { return run * panelsOfRun_; }
-  int endPanel(int run) const { return std::min((run + 1) * panelsOfRun_, panelCount()); }
-
   /// Memory for one thread, and the result of compute().
   class Workspace {
    public:
     explicit Workspace(const InfluencePanels& panels);
     /// Entry (i, j) of the 3 by 3 block of H for a vertex: kLanes values, one per equation.
     const double* h(int vertex, int i, int j) const {
-      return rows_.data() + (9 * std::size_t(vertex) + 3 * i + j) * kLanes;
+      const std::size_t place = panels_.placeOfVertex_[vertex];
+      return h_.data() + (9 * place + 3 * i + j) * kLanes;
     }
     /// Entry (i, j) of the block of G for a traction node; the block is symmetric.
     const double* g(int node, int i, int j) const {
       static constexpr int index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-      return rows_.data() + (firstG_ + 6 * std::size_t(node) + index[i][j]) * kLanes;
+      const std::size_t place = panels_.placeOfNode_[node];
+      return g_.data() + (6 * place + index[i][j]) * kLanes;
     }
 
    private:
     friend class InfluencePanels;
-    std::size_t firstG_;                         // rows of H before those of G
-    AlignedBuffer<double> rows_;                 // of the equations
-    int run_ = -1;                               // whose points are held
-    std::vector<AlignedBuffer<double>> groups_;  // rows at kLanes points each
-    std::vector<std::pair<int, int>> place_;     // group and lane of each of the run's points
+    const InfluencePanels& panels_;
+    AlignedBuffer<double> h_, g_;            // of the equations
+    AlignedBuffer<double> pointH_, pointG_;  // at kLanes points
     std::vector<int> ownIndex_;
     std::vector<OwnTriangle> own_;
   };
@@ -68,14 +60,17 @@ class InfluencePanels {
   /// A triangle of the body as the integration sees it.
   const PanelTriangle& triangle(int f) const { return triangles_[positionOfTriangle_[f]]; }
 
+  /// Place of a vertex's values in a workspace among those of all vertices.
+  int placeOf(int vertex) const { return placeOfVertex_[vertex]; }
+
   /// Pairs of a group of kLanes points and a triangle integrated so far, and how many of them in
   /// closed form.
   long pairCount() const { return pairCount_; }
   long closedFormCount() const { return closedFormCount_; }
 
  private:
-  void integrateRun(int run, Workspace& work) const;
-  void integratePoints(const std::vector<int>& points, Workspace& work, double* rows) const;
+  bool computeAtPoints(int panel, Workspace& work) const;
+  void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
   void markOwnTriangles(const std::vector<int>& points, Workspace& work) const;
   void closeByTranslation(const std::vector<int>& points, double* h) const;
 
@@ -83,8 +78,8 @@ class InfluencePanels {
   const CollocationScheme& scheme_;
   std::vector<PanelTriangle> triangles_;  // in spatial order
   std::vector<int> positionOfTriangle_;
+  std::vector<int> placeOfVertex_, placeOfNode_;  // in the order in which the triangles meet them
   PanelRule nearRule_, farRule_;
-  int panelsOfRun_;
   mutable std::atomic<long> closedFormCount_{0}, pairCount_{0};
 };
 

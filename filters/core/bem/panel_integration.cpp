@@ -9,10 +9,11 @@ namespace palpate {
 
 PALPATE_DECLARE_KERNEL(void integratePanel(const bem::PanelTask&))
 
-PALPATE_DECLARE_KERNEL(void averagePoints(const bem::PointShare*, int, long, double*))
+PALPATE_DECLARE_KERNEL(void averagePoints(const double*, long, bool, double*, double*))
 
-void bem::averagePoints(const PointShare* shares, int shareCount, long rows, double* equations) {
-  PALPATE_DISPATCH(averagePoints(shares, shareCount, rows, equations))
+void bem::averagePoints(const double* weights, long count, bool first, double* points,
+                        double* equations) {
+  PALPATE_DISPATCH(averagePoints(weights, count, first, points, equations))
 }
 
 void bem::integratePanel(const PanelTask& task) {

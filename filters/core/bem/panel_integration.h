@@ -68,14 +68,13 @@ struct PanelTask {
 /// cheapest rule that their distance admits, near and singular ones closed forms.
 void integratePanel(const PanelTask& task);
 
-/// What a collocation point adds to the equations of a panel.
-struct PointShare {
-  const double* values;   ///< of the point, from row to row kLanes apart
-  double weight[kLanes];  ///< one for each equation
-};
-
-/// equations[row][e] = sum over the shares of weight[e] * values[row].
-/// @param equations  rows of kLanes equations, overwritten.
-void averagePoints(const PointShare* shares, int shareCount, long rows, double* equations);
+/// equations[c][e] += sum over p of weights[p][e] * points[c][p], for c = 0 .. count - 1; the
+/// points' values are zero afterwards.
+/// @param weights    kLanes points by kLanes equations.
+/// @param points     count rows of kLanes points.
+/// @param equations  count rows of kLanes equations; overwritten, not added to, where `first` is
+/// set.
+void averagePoints(const double* weights, long count, bool first, double* points,
+                   double* equations);
 
 }  // namespace palpate::bem

@@ -3,8 +3,6 @@
 
 // Compiled once per instruction set; see panel_integration.h for what it computes.
 
-#include <type_traits>
-
 #include "bem/closed_form_moments.h"
 #include "bem/panel_integration.h"
 #include "simd/simd.h"
@@ -278,30 +276,23 @@ void integratePanel(const PanelTask& task) {
   }
 }
 
-void averagePoints(const bem::PointShare* shares, int shareCount, long rows, double* equations) {
+void averagePoints(const double* weights, long count, bool first, double* points,
+                   double* equations) {
   constexpr int batches = kLanes / kWidth;
-  constexpr int together = kWidth >= 4 ? 4 : 2;  // rows whose sums stay in registers
-  const auto average = [&](auto count, long row) {
-    constexpr int rowCount = decltype(count)::value;
-    Batch sum[rowCount][batches];
-    for (int k = 0; k < rowCount; ++k)
-      for (int b = 0; b < batches; ++b) sum[k][b] = Batch(0);
-    for (int s = 0; s < shareCount; ++s) {
-      const double* values = shares[s].values + row * kLanes;
-      for (int b = 0; b < batches; ++b) {
-        const Batch weight = Batch::load_unaligned(shares[s].weight + b * kWidth);
-        for (int k = 0; k < rowCount; ++k)
-          sum[k][b] = xsimd::fma(weight, Batch(values[k * kLanes]), sum[k][b]);
-      }
+  Batch weight[kLanes][batches];
+  for (int p = 0; p < kLanes; ++p)
+    for (int b = 0; b < batches; ++b)
+      weight[p][b] = Batch::load_unaligned(weights + p * kLanes + b * kWidth);
+  for (long c = 0; c < count; ++c) {
+    double* source = points + c * kLanes;
+    double* target = equations + c * kLanes;
+    for (int b = 0; b < batches; ++b) {
+      Batch sum = first ? Batch(0) : Batch::load_unaligned(target + b * kWidth);
+      for (int p = 0; p < kLanes; ++p) sum = xsimd::fma(weight[p][b], Batch(source[p]), sum);
+      sum.store_unaligned(target + b * kWidth);
     }
-    for (int k = 0; k < rowCount; ++k)
-      for (int b = 0; b < batches; ++b)
-        sum[k][b].store_unaligned(equations + (row + k) * kLanes + b * kWidth);
-  };
-  long row = 0;
-  for (; row + together <= rows; row += together)
-    average(std::integral_constant<int, together>(), row);
-  for (; row < rows; ++row) average(std::integral_constant<int, 1>(), row);
+    for (int b = 0; b < batches; ++b) Batch(0).store_unaligned(source + b * kWidth);
+  }
 }
 
 }  // namespace palpate::PALPATE_SIMD_NAMESPACE
