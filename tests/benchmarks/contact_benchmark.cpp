@@ -80,6 +80,25 @@ void removeNode(benchmark::State& state) {
   update(state, false);
 }
 
+/// A tick in which one node enters the contact, and all tractions follow. It leaves untimed.
+void tickWithOneAddition(benchmark::State& state) {
+  const Contact contact(state);
+  CapacitanceMatrix matrix = contact.matrix();
+  const Eigen::VectorXd displacement = Eigen::VectorXd::LinSpaced(matrix.size() + 3, 1e-3, 2e-3);
+  Eigen::VectorXd tractions(matrix.size() + 3);
+  const std::vector<ConstraintSwitch> switches = switchesOfNodes({contact.other});
+  const long before = allocationCount();
+  for (auto _ : state) {
+    const double start = cpuSeconds();
+    matrix.add(switches.data(), 3);
+    matrix.solve(displacement.data(), tractions.data());
+    benchmark::ClobberMemory();
+    state.SetIterationTime(cpuSeconds() - start);
+    matrix.removeNode(contact.other);
+  }
+  state.counters["allocations"] = double(allocationCount() - before);
+}
+
 /// A tick in which one node of the contact leaves, another one enters, and all tractions follow.
 void tickWithOneChange(benchmark::State& state) {
   const Contact contact(state);
@@ -148,6 +167,7 @@ BENCHMARK(factorByEigen)->Apply(sizes);
 BENCHMARK(factorByLapack)->Apply(sizes);
 BENCHMARK(addNode)->Apply(sizes)->UseManualTime();
 BENCHMARK(removeNode)->Apply(sizes)->UseManualTime();
+BENCHMARK(tickWithOneAddition)->Apply(sizes)->UseManualTime();
 BENCHMARK(tickWithOneChange)->Apply(sizes);
 BENCHMARK(tickOfPointContact)->ArgName("n")->Arg(162)->Arg(642)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tickOfStickingContact)->ArgName("n")->Arg(162)->Arg(642)->Unit(benchmark::kMicrosecond);

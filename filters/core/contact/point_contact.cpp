@@ -34,6 +34,8 @@ PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
     values.push_back(value);
   }
   density_ = Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
+  for (int axis = 0; axis < 3; ++axis)
+    compliance_.col(axis) = elasticDisplacementUnder(Eigen::Vector3d::Unit(axis));
 }
 
 Eigen::Vector3d PointContact::elasticDisplacementUnder(const Eigen::Vector3d& force) const {
@@ -54,11 +56,13 @@ ContactResponse PointContact::respond(const Eigen::Vector3d& force,
                                       const Eigen::Vector3d& hapticDisplacement) const {
   ContactResponse response;
   response.force = force;
-  response.staticPoint =
-      stiffness_->mesh().points()(Eigen::all, stiffness_->mesh().triangles().col(point_.triangle)) *
-      point_.barycentric;
+  response.staticPoint.setZero();
+  for (int k = 0; k < 3; ++k)
+    response.staticPoint +=
+        point_.barycentric[k] *
+        stiffness_->mesh().points().col(stiffness_->mesh().triangles()(k, point_.triangle));
   response.hapticDisplacement = hapticDisplacement;
-  response.elasticDisplacement = elasticDisplacementUnder(force);
+  response.elasticDisplacement = compliance_ * force;
   response.hapticPoint = response.staticPoint + response.hapticDisplacement;
   response.elasticPoint = response.staticPoint + response.elasticDisplacement;
   return response;

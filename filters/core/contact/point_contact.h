@@ -26,7 +26,8 @@ struct ContactResponse {
   Eigen::Vector3d hapticDisplacement;   ///< u^H = x^H - x^C
 };
 
-/// Point-like contact anywhere on a surface through its vertices' masks ([JP01] section 6.3).
+/// Point-like contact anywhere on a surface through its vertices' masks ([JP01] section 6.3). What
+/// the point's answers depend on is computed by the constructor: displace and push do not allocate.
 class PointContact {
  public:
   /// @throws std::invalid_argument if the triangle or the barycentric coordinates are out of range.
@@ -55,6 +56,7 @@ class PointContact {
   SurfacePoint point_;
   std::vector<int> nodes_;   ///< of the combined mask
   Eigen::VectorXd density_;  ///< sum over the triangle's free vertices of phi_i(x) rho^i_j, 1/m^2
+  Eigen::Matrix3d compliance_;  ///< u^E per force, m/N
 };
 
 /// The point of the surface nearest to a place (search over all triangles).
