@@ -4,9 +4,27 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
 #include "commands.h"
 #include "terminal.h"
+
+namespace {
+
+/// CLI11 would say of a misspelt command that one is required.
+void requireKnownCommand(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw std::invalid_argument("there is no command '" + std::string(argv[1]) + "': choose one of " +
+                              known + " (see `palpate --help`)");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace palpate::app;
@@ -33,6 +51,7 @@ int main(int argc, char** argv) {
     add(program);
   catchInterrupts();
   try {
+    requireKnownCommand(program, argc, argv);
     CLI11_PARSE(program, argc, argv);
     return 0;
   } catch (const std::exception& failure) {

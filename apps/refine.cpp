@@ -33,9 +33,9 @@ void addRefine(CLI::App& program) {
     filter->SetInputData(readSurface(options->input));
     filter->SetNumberOfLevels(options->levels);
     const auto fine = run(filter);
+    writeSurface(fine, options->output);
     printRow("vertices", std::to_string(fine->GetNumberOfPoints()));
     printRow("triangles", std::to_string(fine->GetNumberOfCells()));
-    writeSurface(fine, options->output);
   });
 }
 

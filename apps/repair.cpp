@@ -32,9 +32,9 @@ void addRepair(CLI::App& program) {
     vtkNew<vtkElasticMeshRepair> filter;
     filter->SetInputData(readSurface(options->input));
     const auto mended = run(filter);
+    writeSurface(mended, options->output);
     for (const std::string& change : fieldStrings(mended, "RepairChanges"))
       std::cout << change << "\n";
-    writeSurface(mended, options->output);
   });
 }
 

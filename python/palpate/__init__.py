@@ -17,12 +17,14 @@ True
 from .PalpateElastostatics import *  # noqa: F401,F403
 from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
+from .errors import Aborted, Error, ModelWarning
 from .files import example, read, write
-from .functions import Error, Aborted, precompute, press, refine, repair, solve, stiffness
+from .functions import precompute, press, refine, repair, solve, stiffness
 
 __all__ = [
     "Aborted",
     "Error",
+    "ModelWarning",
     "array",
     "example",
     "greens_function_nodes",

@@ -9,6 +9,10 @@ class Error(ValueError):
     """What keeps a call from doing its work, in one sentence."""
 
 
+class ModelWarning(UserWarning):
+    """What makes a model doubtful though it was computed: a thin wall, a small support."""
+
+
 class Aborted(RuntimeError):
     """A progress callback asked for an end."""
 

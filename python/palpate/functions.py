@@ -3,12 +3,13 @@
 """One call for each thing that the filters do."""
 
 import sys
+import warnings
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
-from .arrays import as_ids, as_vtk
-from .errors import Aborted, Error, run
+from .arrays import array, as_ids, as_vtk
+from .errors import Error, ModelWarning, run
 from .PalpateElastostatics import (
     vtkBoundaryElementGreensFunctions,
     vtkCapacitanceSolve,
@@ -19,7 +20,7 @@ from .PalpateElastostatics import (
     vtkSurfaceStiffness,
 )
 
-__all__ = ["Aborted", "Error", "precompute", "press", "refine", "repair", "solve", "stiffness"]
+__all__ = ["precompute", "press", "refine", "repair", "solve", "stiffness"]
 
 _PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
 _COLLOCATIONS = {"averaged": 0, "vertex": 1}
@@ -113,6 +114,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     Aborted
         If `progress` returned False.
 
+    Warns
+    -----
+    ModelWarning
+        Where the model is doubtful, with the measured number; also kept in its field array `Warnings`.
+
     Examples
     --------
     >>> import palpate
@@ -154,7 +160,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         bem.SetTolerance(tolerance)
     if columns is not None:
         bem.SetColumnNodes(as_ids(columns, "columns"))
-    return run(bem, _progress(progress))
+    model = run(bem, _progress(progress))
+    if model.GetFieldData().HasArray("Warnings"):
+        for sentence in array(model, "Warnings"):
+            warnings.warn(sentence, ModelWarning, stacklevel=2)
+    return model
 
 
 def solve(model, nodes, displacements, free_tractions=None, face_tractions=None):
@@ -180,7 +190,7 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     -------
     vtkPolyData
         The model with `Displacement` and `Traction` (n by 3), and the field arrays `ContactForce` and
-        `ContactTorque` (1 by 3, of all `nodes` that are free in the model, on the body) and
+        `ContactTorque` (1 by 3, what acts on the body at `nodes`, the torque about their centroid) and
         `ContactCondition`.
 
     Raises

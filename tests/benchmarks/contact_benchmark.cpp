@@ -87,7 +87,7 @@ void tickWithOneAddition(benchmark::State& state) {
   const Eigen::VectorXd displacement = Eigen::VectorXd::LinSpaced(matrix.size() + 3, 1e-3, 2e-3);
   Eigen::VectorXd tractions(matrix.size() + 3);
   const std::vector<ConstraintSwitch> switches = switchesOfNodes({contact.other});
-  const long before = allocationCount();
+  const long before = test::allocationCount();
   for (auto _ : state) {
     const double start = cpuSeconds();
     matrix.add(switches.data(), 3);
@@ -96,7 +96,7 @@ void tickWithOneAddition(benchmark::State& state) {
     state.SetIterationTime(cpuSeconds() - start);
     matrix.removeNode(contact.other);
   }
-  state.counters["allocations"] = double(allocationCount() - before);
+  state.counters["allocations"] = double(test::allocationCount() - before);
 }
 
 /// A tick in which one node of the contact leaves, another one enters, and all tractions follow.
@@ -110,7 +110,7 @@ void tickWithOneChange(benchmark::State& state) {
   for (int node : contact.nodes) switches.push_back(switchesOfNodes({node}));
   switches.push_back(switchesOfNodes({contact.other}));
   std::size_t leaves = 0, enters = switches.size() - 1;  // what entered last leaves a round later
-  const long before = allocationCount();
+  const long before = test::allocationCount();
   for (auto _ : state) {
     matrix.removeNode(switches[leaves][0].node);
     matrix.add(switches[enters].data(), 3);
@@ -119,7 +119,7 @@ void tickWithOneChange(benchmark::State& state) {
     enters = leaves;
     leaves = (leaves + 1) % switches.size();
   }
-  state.counters["allocations"] = double(allocationCount() - before);
+  state.counters["allocations"] = double(test::allocationCount() - before);
 }
 
 /// A point in a random walk over the free surface: its haptic stiffness by interpolation, its
@@ -132,13 +132,13 @@ void tickOfPointContact(benchmark::State& state) {
   std::minstd_rand random(1);
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), displacement(1e-3, 2e-3, -1e-3);
   const Eigen::Vector3d barycentric(0.2, 0.3, 0.5);
-  const long before = allocationCount();
+  const long before = test::allocationCount();
   for (auto _ : state) {
     const int triangle = static_cast<int>(random() % mesh->triangleCount());
     force = stiffness.hapticAt(triangle, barycentric) * displacement;
     benchmark::DoNotOptimize(force);
   }
-  state.counters["allocations"] = double(allocationCount() - before);
+  state.counters["allocations"] = double(test::allocationCount() - before);
 }
 
 /// All of fig. 8 at a contact that stays: force, elastic and haptic points.
@@ -149,13 +149,13 @@ void tickOfStickingContact(benchmark::State& state) {
   const auto stiffness = std::make_shared<SurfaceStiffness>(greens, mesh, MaskShape::Linear,
                                                             2 * mesh->meanEdgeLength());
   const PointContact contact(stiffness, nearestSurfacePoint(*mesh, {0.3, 0.2, 0.9}));
-  const long before = allocationCount();
+  const long before = test::allocationCount();
   for (auto _ : state) {
     const ContactResponse response = contact.displace({1e-3, 2e-3, -1e-3});
     benchmark::DoNotOptimize(response.elasticPoint.data());
     benchmark::ClobberMemory();
   }
-  state.counters["allocations"] = double(allocationCount() - before);
+  state.counters["allocations"] = double(test::allocationCount() - before);
 }
 
 void sizes(benchmark::internal::Benchmark* benchmark) {

@@ -8,9 +8,10 @@
 
 #include "bem/boundary_element_method.h"
 #include "contact/capacitance_matrix.h"
+#include "mesh/loop_subdivision.h"
 #include "support/cpu_clock.h"
+#include "support/data_models.h"
 #include "support/lapack_lu.h"
-#include "support/paper_models.h"
 #include "support/spheres.h"
 
 namespace palpate::bench {
@@ -32,6 +33,19 @@ struct Table3Row {
 };
 constexpr Table3Row kTable3[] = {
     {10, 0.54, 0.03, 0.38}, {20, 2.7, 0.15, 0.74}, {40, 19, 0.58, 1.7}, {100, 310, 5.7, 5.7}};
+
+/// A model of data/ as one smooth patch, its control mesh refined `steps` times.
+ElasticModel paperModel(const std::string& name, int steps) {
+  test::DataModel model = test::readDataModel(name);
+  for (int step = 0; step < steps; ++step) {
+    const LoopLevel level = subdivideLoop(model.shape.points, model.shape.triangles);
+    model.boundaryTypes = refineBoundaryTypes(level, model.boundaryTypes);
+    model.shape = {level.points, level.triangles};
+  }
+  const Eigen::VectorXi onePatch = Eigen::VectorXi::Zero(model.shape.triangles.cols());
+  return ElasticModel(model.shape.mesh(), Material(model.youngsModulus, model.poissonRatio),
+                      BoundaryConditions(model.boundaryTypes), onePatch);
+}
 
 BoundaryElementResult precompute(const ElasticModel& model) {
   BoundaryElementOptions options;

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <cmath>
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "greens/greens_functions.h"
@@ -18,7 +20,13 @@ namespace palpate {
 struct ConstraintSwitch {
   int node;
   Eigen::Vector3d direction;  ///< unit vector
+  bool isUnit() const { return std::abs(direction.norm() - 1) < 1e-6; }
 };
+
+/// @throws std::invalid_argument for a node without column, a direction that is not a unit vector
+/// or
+///         named twice at a node, or more than three of them at a node.
+void requireSwitches(const GreensFunctions& greens, const std::vector<ConstraintSwitch>& switches);
 
 /// The three switches of a whole node.
 std::vector<ConstraintSwitch> switchesOfNodes(const std::vector<int>& nodes);
@@ -34,12 +42,12 @@ std::vector<ConstraintSwitch> switchesOfNodes(const std::vector<int>& nodes);
 class CapacitanceMatrix {
  public:
   /// @param capacity  most switches that will ever be added.
+  /// @throws std::invalid_argument if it is negative.
   CapacitanceMatrix(std::shared_ptr<const GreensFunctions> greens, int capacity);
 
   /// The matrix of a whole set at once (LAPACK).
-  /// @throws std::invalid_argument for a node without column or a direction that is not a unit
-  ///         vector; std::runtime_error naming the condition number and the pair of nodes that
-  ///         cause it if the matrix is singular to working precision.
+  /// @throws as requireSwitches; std::runtime_error naming the condition number and the pair of
+  ///         nodes that cause it if the matrix is singular to working precision.
   CapacitanceMatrix(std::shared_ptr<const GreensFunctions> greens,
                     const std::vector<ConstraintSwitch>& switches, int capacity = 0);
 
@@ -54,15 +62,17 @@ class CapacitanceMatrix {
 
   /// What an addition did.
   struct Addition {
-    bool done;        ///< false where capacity or the pivot forbids it; nothing has changed then
+    bool done;        ///< false where the switches or the pivot forbid it; nothing changes then
     double pivot;     ///< smallest pivot relative to the diagonal: 1 independent, 0 dependent
     int nearestNode;  ///< the present node that the new one depends on most, -1 if there is none
   };
 
-  /// Adds up to three switches of one node. Refused below the pivot kSmallestPivot.
+  /// Adds up to three switches of one node. Refused below the pivot kSmallestPivot, beyond the
+  /// capacity, and for what the constructor would refuse (pivot 0 and node -1 then).
   Addition add(const ConstraintSwitch* switches, int count) noexcept;
 
-  /// Removes all switches of a node. @return false if it has none.
+  /// Removes all switches of a node. @return false, with nothing changed but the order of the
+  /// switches, if it has none or if what remains would be singular.
   bool removeNode(int node) noexcept;
 
   /// The values that the switches make unknown: lambda = (E^T Xi E)^-1 right, where `right` is what
@@ -83,8 +93,9 @@ class CapacitanceMatrix {
   /// own memory, so it is not for several threads.
   double residual() noexcept;
 
-  /// The two nodes whose switches are nearest to dependent (rank-revealing QR): the one that the
-  /// others determine best, and the one among those with the largest share. (-1, -1) below two.
+  /// The two nodes, in ascending order, with the largest shares in the combination of switches that
+  /// is nearest to zero (rank-revealing QR); twice the same if one node has it all. (-1, -1) below
+  /// two switches.
   std::pair<int, int> weakestPair() const;
 
   /// Refactorisations that the watch over drift has caused so far.
@@ -92,22 +103,31 @@ class CapacitanceMatrix {
 
   static constexpr double kLargestCondition = 1e13;  ///< beyond, a set is refused as singular
   static constexpr double kSmallestPivot = 1e-12;
-  static constexpr double kTaintedPivot = 1e-6;      ///< its removal causes a refactorisation
+  static constexpr double kTaintedPivot = 1e-6;      ///< after it, removals cause a refactorisation
   static constexpr double kLargestResidual = 1e-10;  ///< so does a larger residual
   static constexpr int kCheckInterval = 32;          ///< updates between looks at the residual
 
+  /// A block of up to three rows, without heap memory.
+  using Pivot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
  private:
   void reserve(int capacity);
-  double rowScale(int node) const;
-  double columnScale(int node) const;
-  double* column(AlignedBuffer<double>& matrix, int k) const {
+  void gatherAll();
+  double rowScale(int node) const { return greens_->isFixed(node) ? 1 / modulus_ : 1 / length_; }
+  double columnScale(int node) const {
+    return greens_->isFixed(node) ? length_
+                                  : modulus_ * length_ * length_ / greens_->vertexArea(node);
+  }
+  double* column(const AlignedBuffer<double>& matrix, int k) const {
     return matrix.data() + std::size_t(k) * stride_;
   }
-  const double* column(const AlignedBuffer<double>& matrix, int k) const {
-    return matrix.data() + std::size_t(k) * stride_;
-  }
+  bool canAdd(const ConstraintSwitch* switches, int count) const noexcept;
   void gatherBorder(const ConstraintSwitch* switches, int count) noexcept;
+  Pivot ownBlock(const ConstraintSwitch* switches, int count) const noexcept;
+  int nearestNode(int count) const noexcept;
+  void appendBorder(const Pivot& diagonal, const Pivot& schurInverse) noexcept;
   void swapSwitches(int a, int b) noexcept;
+  double removalPivot(int count) const noexcept;
   void removeLast(int count) noexcept;
   bool refactor() noexcept;
   void watchDrift() noexcept;

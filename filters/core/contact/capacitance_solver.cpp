@@ -76,10 +76,12 @@ void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& sw
   for (int body = 0; body < mesh_->bodyCount(); ++body) {
     std::vector<Eigen::Vector3d> points, directions;
     Eigen::AlignedBox3d box;
+    int first = -1;
     for (int node = 0; node < mesh_->vertexCount(); ++node) {
       if (mesh_->bodyOfVertex(node) != body) continue;
       const Eigen::Vector3d x = mesh_->points().col(node);
       box.extend(x);
+      if (first < 0) first = node;
       // What is constrained: the axes that releases leave of a fixed node.
       for (int c = 0; c < 3 && greens_->isFixed(node); ++c) {
         const Eigen::Vector3d left = withoutSwitched(Eigen::Vector3d::Unit(c), switches, node);
@@ -102,7 +104,8 @@ void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& sw
         leastResistedMotion(pointMatrix, directionMatrix, box.diagonal().norm());
     if (motion.resistance < kSmallestResistance)
       throw std::invalid_argument("releasing these nodes would leave a rigid motion free (" +
-                                  motion.describe() + ")");
+                                  motion.describe() + ") of the body of vertex " +
+                                  std::to_string(first));
   }
 }
 
@@ -142,20 +145,12 @@ CapacitanceSolver::Problem CapacitanceSolver::prepare(const BoundaryValues& valu
   if (values.given.size() > 0 && values.given.cols() != n)
     throw std::invalid_argument("there are " + std::to_string(values.given.cols()) +
                                 " given values for " + std::to_string(n) + " nodes");
-  for (const ConstraintSwitch& s : values.switches)
-    if (s.node < 0 || s.node >= n)
-      throw std::invalid_argument("there is no node " + std::to_string(s.node) +
-                                  ": the model has " + std::to_string(n) + " nodes");
+  requireSwitches(*greens_, values.switches);
   if (!values.prescribed.allFinite() || !values.given.allFinite())
     throw std::invalid_argument("a prescribed value is not a finite number");
 
   Problem problem;
   problem.switches = sorted(values.switches);
-  const auto twice =
-      std::adjacent_find(problem.switches.begin(), problem.switches.end(), sameSwitch);
-  if (twice != problem.switches.end())
-    throw std::invalid_argument("node " + std::to_string(twice->node) +
-                                " is constrained twice along the same direction");
   requireSupported(problem.switches);
   problem.matrix = matrixFor(values.switches);
 
@@ -222,10 +217,10 @@ BoundarySolution CapacitanceSolver::solve(const BoundaryValues& values) {
 
 Eigen::Matrix3Xd CapacitanceSolver::solveAt(const BoundaryValues& values,
                                             const std::vector<int>& rows) {
-  const Problem problem = prepare(values);
   for (int row : rows)
     if (row < 0 || row >= greens_->nodeCount())
       throw std::invalid_argument("there is no node " + std::to_string(row) + " to evaluate");
+  const Problem problem = prepare(values);
   Eigen::VectorXd response = Eigen::VectorXd::Zero(3 * rows.size());
   greens_->accumulate(nodeList(problem.nodes), problem.weights.reshaped(), nodeList(rows),
                       response);

@@ -39,8 +39,8 @@ struct BoundarySolution {
 };
 
 /// Solves boundary value problems near the reference one with capacitance matrices ([JP01] section
-/// 4.2). Keeps the inverses of the last problem types; a type that differs from a kept one by a few
-/// nodes is updated from it.
+/// 4.2). Keeps the inverses of the last problem types. Each is made afresh, so that a solution does
+/// not depend on those before it; what changes node by node is for CapacitanceMatrix itself.
 class CapacitanceSolver {
  public:
   /// @param mesh        the surface of the Green's functions: positions for the support test.

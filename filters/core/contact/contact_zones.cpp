@@ -3,7 +3,6 @@
 
 #include "contact/contact_zones.h"
 
-#include <algorithm>
 #include <Eigen/Geometry>
 #include <stdexcept>
 
@@ -19,11 +18,16 @@ std::vector<int> nodesOf(const GreensFunctions& greens, const std::vector<Contac
     if (greens.isFixed(node))
       throw std::invalid_argument("node " + std::to_string(node) +
                                   " of a contact zone is fixed: zones lie on the free surface");
-  std::vector<int> ordered = nodes;
-  std::sort(ordered.begin(), ordered.end());
-  const auto twice = std::adjacent_find(ordered.begin(), ordered.end());
-  if (twice != ordered.end())
-    throw std::invalid_argument("node " + std::to_string(*twice) + " is in two contact zones");
+  std::vector<int> zoneOfNode(greens.nodeCount(), -1);
+  for (std::size_t z = 0; z < zones.size(); ++z)
+    for (int node : zones[z].nodes) {
+      if (zoneOfNode[node] >= 0)
+        throw std::invalid_argument("node " + std::to_string(node) +
+                                    (zoneOfNode[node] == static_cast<int>(z)
+                                         ? " is named twice by a contact zone"
+                                         : " is in two contact zones"));
+      zoneOfNode[node] = static_cast<int>(z);
+    }
   return nodes;
 }
 
@@ -32,6 +36,10 @@ std::vector<int> nodesOf(const GreensFunctions& greens, const std::vector<Contac
 ContactZones::ContactZones(std::shared_ptr<const GreensFunctions> greens, const SurfaceMesh& mesh,
                            std::vector<ContactZone> zones)
     : zones_(std::move(zones)), matrix_(greens, switchesOfNodes(nodesOf(*greens, zones_))) {
+  if (greens->nodeCount() != mesh.vertexCount())
+    throw std::invalid_argument("the Green's functions have " +
+                                std::to_string(greens->nodeCount()) + " nodes, the surface " +
+                                std::to_string(mesh.vertexCount()) + " vertices");
   const std::vector<int> nodes = nodesOf(*greens, zones_);
   positions_ = mesh.points()(Eigen::all, nodes);
   areas_ = greens->info().vertexAreas(nodes);
@@ -62,6 +70,8 @@ Eigen::MatrixXd ContactZones::motions() const {
 }
 
 Eigen::MatrixXd ContactZones::bufferStiffness(int zone) const {
+  if (zone < 0 || zone >= zoneCount())
+    throw std::invalid_argument("there is no contact zone " + std::to_string(zone));
   Eigen::MatrixXd weighted = motions().middleCols(6 * zone, 6);
   for (Eigen::Index node = 0; node < areas_.size(); ++node)
     weighted.middleRows<3>(3 * node) *= areas_[node];

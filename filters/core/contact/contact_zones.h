@@ -23,8 +23,8 @@ struct ContactZone {
 /// nodes, at the cost of the zones alone.
 class ContactZones {
  public:
-  /// @throws std::invalid_argument for a node in two zones, fixed or without column; and as
-  ///         CapacitanceMatrix does.
+  /// @throws std::invalid_argument for a node that is named twice, fixed or without column, or for
+  ///         another surface's Green's functions; and as CapacitanceMatrix does.
   ContactZones(std::shared_ptr<const GreensFunctions> greens, const SurfaceMesh& mesh,
                std::vector<ContactZone> zones);
 
@@ -34,10 +34,12 @@ class ContactZones {
   /// Tractions p_S = -C^-1 u_S (eq. 26, with the sign of a force on the body).
   /// @param displacement  3s, the zones' nodes one after the other, m.
   /// @return 3s, Pa.
+  /// @throws std::invalid_argument for another size.
   Eigen::VectorXd tractions(const Eigen::VectorXd& displacement) const;
 
   /// K_S of eq. 27 for one zone: its force and torque per displacement of every zone's nodes.
   /// @return 6 by 3s; force rows in N/m, torque rows in N.
+  /// @throws std::invalid_argument if there is no such zone.
   Eigen::MatrixXd bufferStiffness(int zone) const;
 
   /// Stiffness between rigid motions of the zones: force and torque on each per translation (m) and

@@ -13,7 +13,7 @@ namespace palpate {
 
 PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
                            const SurfacePoint& point)
-    : stiffness_(std::move(stiffness)), point_(point) {
+    : stiffness_(std::move(stiffness)) {
   const SurfaceMesh& mesh = stiffness_->mesh();
   if (point.triangle < 0 || point.triangle >= mesh.triangleCount())
     throw std::invalid_argument("there is no triangle " + std::to_string(point.triangle) +
@@ -34,62 +34,65 @@ PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
     values.push_back(value);
   }
   density_ = Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
-  for (int axis = 0; axis < 3; ++axis)
-    compliance_.col(axis) = elasticDisplacementUnder(Eigen::Vector3d::Unit(axis));
+
+  staticPoint_ =
+      mesh.points()(Eigen::all, mesh.triangles().col(point.triangle)) * point.barycentric;
+  hapticStiffness_ = stiffness_->hapticAt(point.triangle, point.barycentric);
+  hapticCompliance_ = hapticStiffness_.inverse();
+  elasticCompliance_ = complianceHere(point);
 }
 
-Eigen::Vector3d PointContact::elasticDisplacementUnder(const Eigen::Vector3d& force) const {
-  const SurfaceMesh& mesh = stiffness_->mesh();
+/// Displacement of the point on the deformed surface per force spread over the combined mask.
+Eigen::Matrix3d PointContact::complianceHere(const SurfacePoint& point) const {
   const GreensFunctions& greens = stiffness_->greens();
-  const Eigen::Vector3i corners = mesh.triangles().col(point_.triangle);
-  Eigen::Matrix<double, 9, 1> response = Eigen::Matrix<double, 9, 1>::Zero();
-  const Eigen::Matrix3Xd tractions = force * density_.transpose();
-  greens.accumulate(nodeList(nodes_), tractions.reshaped(), corners, response);
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+  const Eigen::Vector3i corners = stiffness_->mesh().triangles().col(point.triangle);
+  Eigen::MatrixXd blocks(9, 3 * nodes_.size());
+  greens.gather(corners, nodeList(nodes_), blocks.data());
+  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3; ++k)
-    if (!greens.isFixed(corners[k]))
-      displacement += point_.barycentric[k] * response.segment<3>(3 * k);
-  return displacement;
+    for (std::size_t j = 0; j < nodes_.size() && !greens.isFixed(corners[k]); ++j)
+      compliance += point.barycentric[k] * density_[j] * blocks.block<3, 3>(3 * k, 3 * j);
+  return compliance;
 }
 
 ContactResponse PointContact::respond(const Eigen::Vector3d& force,
-                                      const Eigen::Vector3d& hapticDisplacement) const {
+                                      const Eigen::Vector3d& hapticDisplacement) const noexcept {
   ContactResponse response;
   response.force = force;
-  response.staticPoint.setZero();
-  for (int k = 0; k < 3; ++k)
-    response.staticPoint +=
-        point_.barycentric[k] *
-        stiffness_->mesh().points().col(stiffness_->mesh().triangles()(k, point_.triangle));
+  response.staticPoint = staticPoint_;
   response.hapticDisplacement = hapticDisplacement;
-  response.elasticDisplacement = compliance_ * force;
+  response.elasticDisplacement = elasticCompliance_ * force;
   response.hapticPoint = response.staticPoint + response.hapticDisplacement;
   response.elasticPoint = response.staticPoint + response.elasticDisplacement;
   return response;
 }
 
-ContactResponse PointContact::displace(const Eigen::Vector3d& displacement) const {
-  const Eigen::Vector3d force =
-      stiffness_->hapticAt(point_.triangle, point_.barycentric) * displacement;
-  return respond(force, displacement);
+ContactResponse PointContact::displace(const Eigen::Vector3d& displacement) const noexcept {
+  return respond(hapticStiffness_ * displacement, displacement);
 }
 
-ContactResponse PointContact::push(const Eigen::Vector3d& force) const {
-  const Eigen::Matrix3d stiffness = stiffness_->hapticAt(point_.triangle, point_.barycentric);
-  return respond(force, stiffness.inverse() * force);
+ContactResponse PointContact::push(const Eigen::Vector3d& force) const noexcept {
+  return respond(force, hapticCompliance_ * force);
 }
 
 void PointContact::deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
                           Eigen::Matrix3Xd& traction) const {
   const GreensFunctions& greens = stiffness_->greens();
-  const int n = greens.nodeCount();
-  const Eigen::Matrix3Xd tractions = force * density_.transpose();
-  Eigen::VectorXd response = Eigen::VectorXd::Zero(3 * n);
-  greens.accumulate(nodeList(nodes_), tractions.reshaped(), response);
-  displacement = traction = Eigen::Matrix3Xd::Zero(3, n);
+  const int n = greens.nodeCount(), masked = static_cast<int>(nodes_.size());
+  displacement.setZero(3, n);
+  traction.setZero(3, n);
+  // Weights on the stack, a few nodes at a time.
+  constexpr int kNodes = 32;
+  Eigen::Matrix<double, 3 * kNodes, 1> weights;
+  for (int first = 0; first < masked; first += kNodes) {
+    const int count = std::min(kNodes, masked - first);
+    for (int j = 0; j < count; ++j) weights.segment<3>(3 * j) = density_[first + j] * force;
+    greens.accumulate(Eigen::Map<const Eigen::VectorXi>(nodes_.data() + first, count),
+                      weights.head(3 * count), displacement.reshaped());
+  }
   for (int node = 0; node < n; ++node)
-    (greens.isFixed(node) ? traction : displacement).col(node) = response.segment<3>(3 * node);
-  traction(Eigen::all, nodes_) = tractions;
+    if (greens.isFixed(node)) displacement.col(node).swap(traction.col(node));
+  for (int j = 0; j < masked; ++j) traction.col(nodes_[j]) = density_[j] * force;
 }
 
 namespace {

@@ -26,8 +26,9 @@ struct ContactResponse {
   Eigen::Vector3d hapticDisplacement;   ///< u^H = x^H - x^C
 };
 
-/// Point-like contact anywhere on a surface through its vertices' masks ([JP01] section 6.3). What
-/// the point's answers depend on is computed by the constructor: displace and push do not allocate.
+/// Point-like contact anywhere on a surface through its vertices' masks ([JP01] section 6.3). All
+/// that depends on the place is computed by the constructor; what is asked of it afterwards
+/// allocates nothing.
 class PointContact {
  public:
   /// @throws std::invalid_argument if the triangle or the barycentric coordinates are out of range.
@@ -35,28 +36,29 @@ class PointContact {
 
   /// Force of a prescribed displacement, f = K^H(x) u^H. The elastic displacement that goes with it
   /// is smaller than the haptic one where the surface is stiffer than k_Rigid.
-  ContactResponse displace(const Eigen::Vector3d& displacement) const;
+  ContactResponse displace(const Eigen::Vector3d& displacement) const noexcept;
 
   /// Displacement under a prescribed force, u^H = K^H(x)^-1 f.
-  ContactResponse push(const Eigen::Vector3d& force) const;
+  ContactResponse push(const Eigen::Vector3d& force) const noexcept;
 
   /// All nodes' displacements and tractions under a force here (eq. 35): each vertex of the
   /// triangle that is free carries its barycentric share, spread by its mask. The share of a fixed
   /// vertex goes into the support.
-  /// @param displacement, traction  3 by #nodes, overwritten; m, Pa.
+  /// @param displacement, traction  3 by #nodes, overwritten (resized if need be); m, Pa.
   void deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
               Eigen::Matrix3Xd& traction) const;
 
  private:
   ContactResponse respond(const Eigen::Vector3d& force,
-                          const Eigen::Vector3d& hapticDisplacement) const;
-  Eigen::Vector3d elasticDisplacementUnder(const Eigen::Vector3d& force) const;
+                          const Eigen::Vector3d& hapticDisplacement) const noexcept;
+  Eigen::Matrix3d complianceHere(const SurfacePoint& point) const;
 
   std::shared_ptr<const SurfaceStiffness> stiffness_;
-  SurfacePoint point_;
-  std::vector<int> nodes_;   ///< of the combined mask
+  Eigen::Vector3d staticPoint_;
+  Eigen::Matrix3d hapticStiffness_, hapticCompliance_;  ///< K^H(x) and its inverse
+  Eigen::Matrix3d elasticCompliance_;  ///< u^E per force, by eq. 35 interpolated at the point
+  std::vector<int> nodes_;             ///< of the combined mask
   Eigen::VectorXd density_;  ///< sum over the triangle's free vertices of phi_i(x) rho^i_j, 1/m^2
-  Eigen::Matrix3d compliance_;  ///< u^E per force, m/N
 };
 
 /// The point of the surface nearest to a place (search over all triangles).

@@ -8,6 +8,14 @@
 #include <stdexcept>
 
 namespace palpate {
+namespace {
+
+// Rounding, as under a rotation of the mesh, must not decide what belongs to a mask: vertices just
+// at the radius and normals at right angles (the edges of a box) do not.
+constexpr double kEdgeOfRadius = 1 - 1e-9;
+constexpr double kSmallestCosine = 1e-6;
+
+}  // namespace
 
 MaskShape maskShapeFromName(const std::string& name) {
   if (name == "linear") return MaskShape::Linear;
@@ -39,6 +47,10 @@ PressureMasks::PressureMasks(const SurfaceMesh& mesh, const BoundaryConditions& 
   if (!(radius >= 0) || !std::isfinite(radius))
     throw std::invalid_argument("the radius of a pressure mask must be at least 0, not " +
                                 std::to_string(radius));
+  if (conditions.nodeCount() != mesh.vertexCount())
+    throw std::invalid_argument("there are boundary types of " +
+                                std::to_string(conditions.nodeCount()) +
+                                " vertices for a surface of " + std::to_string(mesh.vertexCount()));
 }
 
 VertexMask PressureMasks::at(int vertex) const {
@@ -59,8 +71,8 @@ VertexMask PressureMasks::at(int vertex) const {
         const int v = mesh_.triangles()(k, f);
         if (seen[v]) continue;
         seen[v] = true;
-        if ((mesh_.points().col(v) - centre).norm() < radius_ &&
-            mesh_.vertexNormals().col(v).dot(normal) > 0)
+        if ((mesh_.points().col(v) - centre).norm() < kEdgeOfRadius * radius_ &&
+            mesh_.vertexNormals().col(v).dot(normal) > kSmallestCosine)
           reached.push_back(v);
       }
   VertexMask mask;

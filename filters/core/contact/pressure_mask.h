@@ -41,9 +41,9 @@ struct VertexMask {
 class PressureMasks {
  public:
   /// @param radius  in the mesh's unit, >= 0; below the shortest edge around a vertex the mask is
-  /// the
-  ///                vertex alone, rho = 1 / a.
-  /// @throws std::invalid_argument for a radius that is negative or not a number.
+  ///                the vertex alone, rho = 1 / a.
+  /// @throws std::invalid_argument for a radius that is negative or not a number, or for boundary
+  ///         types of another number of vertices.
   PressureMasks(const SurfaceMesh& mesh, const BoundaryConditions& conditions, MaskShape shape,
                 double radius);
 

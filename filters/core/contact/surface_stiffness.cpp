@@ -41,9 +41,13 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
                                    double radius, double rigidStiffness,
                                    const ProgressCallback& callback)
     : greens_(std::move(greens)), mesh_(std::move(mesh)), rigidStiffness_(rigidStiffness) {
-  if (!(rigidStiffness >= 0))
-    throw std::invalid_argument("the rigid stiffness must not be negative, as " +
-                                std::to_string(rigidStiffness) + " is");
+  if (!(rigidStiffness >= 0) || !std::isfinite(rigidStiffness))
+    throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
+                                std::to_string(rigidStiffness));
+  if (greens_->nodeCount() != mesh_->vertexCount())
+    throw std::invalid_argument("the Green's functions have " +
+                                std::to_string(greens_->nodeCount()) + " nodes, the surface " +
+                                std::to_string(mesh_->vertexCount()) + " vertices");
   const int n = mesh_->vertexCount();
   const Progress progress(callback);
   const PressureMasks masks(*mesh_, greens_->info().conditions, shape, radius);

@@ -34,8 +34,8 @@ class SurfaceStiffness {
   /// @param rigidStiffness  k_Rigid of eq. 33 (N/m), the stiffness of fixed vertices and the most
   /// that
   ///                        the haptic stiffness shows; 0 for the stiffest elastic vertex.
-  /// @throws as maskedVertexStiffness; std::invalid_argument for a negative rigid stiffness;
-  /// Aborted.
+  /// @throws as maskedVertexStiffness; std::invalid_argument for a rigid stiffness that is negative
+  ///         or not finite, or for another surface's Green's functions; Aborted.
   SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape, double radius,
                    double rigidStiffness = 0, const ProgressCallback& progress = {});

@@ -3,15 +3,29 @@
 
 #include "greens/dense_greens_functions.h"
 
+#include <stdexcept>
+
 #include "greens/weighted_columns.h"
 
 namespace palpate {
+namespace {
+
+void requireSize(std::size_t values, std::size_t columns, int nodes, const char* kind) {
+  if (values < 9 * columns * nodes)
+    throw std::invalid_argument("there are " + std::to_string(values) + " values for " +
+                                std::to_string(columns) + kind + "columns of " +
+                                std::to_string(nodes) + " nodes");
+}
+
+}  // namespace
 
 template <class Scalar>
 DenseGreensFunctions<Scalar>::DenseGreensFunctions(GreensFunctionsInfo info,
                                                    AlignedBuffer<Scalar> matrix,
                                                    AlignedBuffer<Scalar> patchMatrix)
     : GreensFunctions(std::move(info)) {
+  requireSize(matrix.size(), columnCount(), nodeCount(), " ");
+  requireSize(patchMatrix.size(), this->info().patchColumns.size(), nodeCount(), " patch ");
   auto owner = std::make_shared<std::pair<AlignedBuffer<Scalar>, AlignedBuffer<Scalar>>>(
       std::move(matrix), std::move(patchMatrix));
   matrix_ = owner->first.data();
@@ -45,6 +59,7 @@ template <class ColumnAt, class WeightAt>
 void DenseGreensFunctions<Scalar>::stream(Eigen::Index blocks, const ColumnAt& columnAt,
                                           const WeightAt& weightAt,
                                           Eigen::Ref<Eigen::VectorXd> out) const {
+  if (blocks == 0) return;
   // Fixed rows carry the factor s and free ones none; dividing the sum so far first keeps one pass.
   const auto scaleFixedRows = [&](double factor) {
     if (factor == 1) return;
@@ -104,10 +119,13 @@ template <class Scalar>
 std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsModulus(
     double youngsModulus) const {
   GreensFunctionsInfo scaledInfo = info();
+  const double factor = youngsModulus / info().material.youngsModulus();
   scaledInfo.material = Material(youngsModulus, info().material.poissonRatio());
+  if (scaledInfo.diagnostics.rockingCompliance > 0)
+    scaledInfo.diagnostics.rockingCompliance /= factor;
   auto scaled = std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_,
                                                                patchMatrix_, keeper_);
-  scaled->stiffnessScale_ = stiffnessScale_ * youngsModulus / info().material.youngsModulus();
+  scaled->stiffnessScale_ = stiffnessScale_ * factor;
   return scaled;
 }
 

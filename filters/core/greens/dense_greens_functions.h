@@ -14,6 +14,7 @@ template <class Scalar>
 class DenseGreensFunctions final : public GreensFunctions {
  public:
   /// Takes over the matrices.
+  /// @throws std::invalid_argument if they are smaller than `info` says.
   DenseGreensFunctions(GreensFunctionsInfo info, AlignedBuffer<Scalar> matrix,
                        AlignedBuffer<Scalar> patchMatrix = {});
 

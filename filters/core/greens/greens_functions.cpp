@@ -54,10 +54,14 @@ Eigen::Matrix3Xd solveFaceTractions(const GreensFunctions& greens, const Surface
                                     const Eigen::VectorXi& patches,
                                     const Eigen::Matrix3Xd& faceTractions,
                                     Eigen::Matrix3Xd& applied) {
-  if (faceTractions.cols() != mesh.triangleCount() || patches.size() != mesh.triangleCount() ||
-      greens.nodeCount() != mesh.vertexCount())
+  if (greens.nodeCount() != mesh.vertexCount())
+    throw std::invalid_argument("the Green's functions have " + std::to_string(greens.nodeCount()) +
+                                " nodes, the surface " + std::to_string(mesh.vertexCount()) +
+                                " vertices");
+  if (faceTractions.cols() != mesh.triangleCount() || patches.size() != mesh.triangleCount())
     throw std::invalid_argument("there are " + std::to_string(faceTractions.cols()) +
-                                " triangle tractions for " + std::to_string(mesh.triangleCount()) +
+                                " triangle tractions and " + std::to_string(patches.size()) +
+                                " patch numbers for " + std::to_string(mesh.triangleCount()) +
                                 " triangles");
   struct Load {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();

@@ -98,10 +98,10 @@ class GreensFunctions {
 };
 
 /// Solves the reference boundary value problem itself, v = Xi v_given (eq. 11).
-/// @param given  3 by #nodes: tractions (Pa) at free, displacements (m) at fixed nodes. Zero
-/// columns
-///               cost nothing and need no stored column.
+/// @param given  3 by #nodes: tractions (Pa) at free, displacements (m) at fixed nodes. Nodes
+///               without any cost nothing and need no stored column.
 /// @return 3 by #nodes: displacements at free, tractions at fixed nodes.
+/// @throws std::invalid_argument if the size differs or a column that is needed is not stored.
 Eigen::Matrix3Xd solveReferenceProblem(const GreensFunctions& greens,
                                        const Eigen::Matrix3Xd& given);
 
@@ -113,8 +113,8 @@ Eigen::Matrix3Xd solveReferenceProblem(const GreensFunctions& greens,
 /// @param faceTractions    3 by #F, Pa.
 /// @param applied          set to the 3 by #nodes nodal forces applied, N.
 /// @return 3 by #nodes: displacements at free, tractions at fixed nodes.
-/// @throws std::invalid_argument if a vertex on a sharp edge is loaded whose patch columns were not
-///         computed.
+/// @throws std::invalid_argument if sizes differ, or if a vertex on a sharp edge is loaded whose
+///         patch columns were not computed.
 Eigen::Matrix3Xd solveFaceTractions(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                     const Eigen::VectorXi& patches,
                                     const Eigen::Matrix3Xd& faceTractions,

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -21,6 +22,7 @@ class AlignedBuffer {
  public:
   AlignedBuffer() = default;
   explicit AlignedBuffer(std::size_t count) : size_(count) {
+    if (count > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar)) throw std::bad_alloc();
     const std::size_t bytes = count * sizeof(Scalar);
     constexpr std::size_t hugePage = std::size_t(1) << 21, line = 64;
     const std::size_t alignment = bytes >= hugePage ? hugePage : line;

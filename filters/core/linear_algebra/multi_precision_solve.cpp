@@ -92,18 +92,21 @@ SolveReport solveMixedInPlace(const AlignedBuffer<double>& matrix, int size, int
                           Eigen::OuterStride<>(stride));
     solution = Matrix<double>::Zero(size, width);
     residual = block;
+    double before = 2;  // norm of the last correction over that of the solution
     for (int step = 0;; ++step) {
       correction = residual.cast<float>();
       lu.solve(correction.data(), width, size);
       solution += correction.cast<double>();
-      const double change = correction.norm() / solution.norm();
+      const double norm = solution.norm();
+      const double change = norm > 0 ? correction.cast<double>().norm() / norm : 0;
       report.refinementSteps = std::max(report.refinementSteps, step);
-      // The next correction would be smaller by the same factor again: change squared at step 1.
-      if (change < smallestCorrection || (step > 0 && change < 1e-6)) break;
-      if (step == mostSteps || !(change < 2))
+      // Corrections shrink by about the same factor each time: this bounds the next one.
+      if (change * change / before < smallestCorrection) break;
+      if (step == mostSteps || !(change < before))
         throw std::runtime_error(
             "refinement in double does not converge: the system is too ill-conditioned for mixed "
             "precision, use double");
+      before = change;
       residual = block;
       lapack::gemm(false, size, width, size, -1.0, matrix.data(), stride, solution.data(), size,
                    1.0, residual.data(), size);

@@ -25,7 +25,7 @@ SolveReport solveInPlace(AlignedBuffer<Scalar>& matrix, int size, int stride,
                          AlignedBuffer<Scalar>& right, int columns, const Progress& progress);
 
 /// The same with a float factorisation and iterative refinement in double, block by block, until
-/// the correction is below 1e-11 of the solution. `matrix` is kept.
+/// the next correction would be below 1e-11 of the solution. `matrix` is kept.
 /// @throws std::runtime_error if refinement does not converge (condition beyond about 1e6).
 SolveReport solveMixedInPlace(const AlignedBuffer<double>& matrix, int size, int stride,
                               AlignedBuffer<double>& right, int columns, const Progress& progress);

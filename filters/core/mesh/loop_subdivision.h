@@ -27,6 +27,7 @@ LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& 
 
 /// Carries boundary types along: a new vertex is fixed if both ends of its edge are.
 /// @param types  #V values 0 or 1.
+/// @throws std::invalid_argument if there is not one for each control vertex.
 std::vector<unsigned char> refineBoundaryTypes(const LoopLevel& level,
                                                const std::vector<unsigned char>& types);
 

@@ -11,13 +11,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "mesh/surface_mesh.h"
+#include "mesh/shells.h"
+#include "mesh/triangle_sides.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kLargestCoordinate = 1e100;
-constexpr double kDuplicateDistance = 1e-9;  // of the bounding box's diagonal
+constexpr double kLargestCoordinate = 1e60;
+constexpr double kShortestEdge = 1e-70;
 constexpr double kDegenerateHeight = 1e-10;  // of the triangle's longest edge
 
 template <class... Parts>
@@ -45,7 +46,7 @@ void findBadNumbers(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& tria
                     DefectList& defects) {
   for (int v = 0; v < points.cols(); ++v) {
     const Eigen::Vector3d x = points.col(v);
-    if (!x.allFinite() || x.cwiseAbs().maxCoeff() > kLargestCoordinate)
+    if (!isUsablePoint(x))
       defects.add(MeshDefectKind::NonFiniteCoordinate, v,
                   sentence("vertex ", v, " has a coordinate that is not a usable number (", x.x(),
                            ", ", x.y(), ", ", x.z(), ")"));
@@ -58,17 +59,26 @@ void findBadNumbers(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& tria
                              ", but there are only ", points.cols(), " vertices"));
 }
 
+struct TriangleSize {
+  double longestEdge, height;
+  TriangleSize(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+      : longestEdge(std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})),
+        height(longestEdge > 0 ? (b - a).cross(c - a).norm() / longestEdge : 0) {}
+  bool isDegenerate() const {
+    return longestEdge < kShortestEdge || height <= kDegenerateHeight * longestEdge;
+  }
+};
+
 void findDegenerateTriangles(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
                              DefectList& defects) {
   for (int f = 0; f < triangles.cols(); ++f) {
     const Eigen::Vector3i t = triangles.col(f);
-    const Eigen::Vector3d a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const double height = longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
-    if (!(height > kDegenerateHeight * longest))
-      defects.add(MeshDefectKind::DegenerateTriangle, f,
-                  sentence("triangle ", f, " (", t[0], ", ", t[1], ", ", t[2],
-                           ") is degenerate: height ", height, " over longest edge ", longest));
+    const TriangleSize size(points.col(t[0]), points.col(t[1]), points.col(t[2]));
+    if (size.isDegenerate())
+      defects.add(
+          MeshDefectKind::DegenerateTriangle, f,
+          sentence("triangle ", f, " (", t[0], ", ", t[1], ", ", t[2], ") is degenerate: height ",
+                   size.height, " over longest edge ", size.longestEdge));
   }
 }
 
@@ -103,46 +113,25 @@ void findDuplicateTriangles(const Eigen::Matrix3Xi& triangles, DefectList& defec
                   sentence("triangle ", keys[i][3], " repeats triangle ", keys[i - 1][3]));
 }
 
-/// A side of a triangle: the lower vertex, the higher vertex, the triangle, and its direction.
-struct Side {
-  int low, high, triangle;
-  bool upwards;
-  bool sameEdge(const Side& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<Side> sortedSides(const Eigen::Matrix3Xi& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.cols());
-  for (int f = 0; f < triangles.cols(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const int a = triangles(k, f), b = triangles((k + 1) % 3, f);
-      sides.push_back({std::min(a, b), std::max(a, b), f, a < b});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return sides;
-}
-
 void findEdgeDefects(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
-  const std::vector<Side> sides = sortedSides(triangles);
-  for (std::size_t i = 0, end; i < sides.size(); i = end) {
-    for (end = i + 1; end < sides.size() && sides[end].sameEdge(sides[i]);) ++end;
-    const std::string edge = sentence("edge (", sides[i].low, ", ", sides[i].high, ")");
-    const int f = sides[i].triangle;
-    if (end - i > 2)
+  forEachEdge(sortedSides(triangles), [&](auto first, auto last) {
+    const auto edge = [&, side = *first] {
+      return sentence("edge (", side.low, ", ", side.high, ")");
+    };
+    const int f = first->triangle, second = std::prev(last)->triangle;
+    if (last - first > 2)
       defects.add(MeshDefectKind::NonManifoldEdge, f,
-                  sentence(edge, " belongs to ", end - i, " triangles (the first is ", f,
+                  sentence(edge(), " belongs to ", last - first, " triangles (the first is ", f,
                            "): the surface is not a manifold there"));
-    else if (end - i == 1)
+    else if (last - first == 1)
       defects.add(MeshDefectKind::OpenBoundary, f,
-                  sentence(edge, " belongs to triangle ", f,
+                  sentence(edge(), " belongs to triangle ", f,
                            " alone: the surface is open there, but it must be closed"));
-    else if (sides[i].upwards == sides[i + 1].upwards)
-      defects.add(MeshDefectKind::InconsistentOrientation, sides[i + 1].triangle,
-                  sentence("triangles ", f, " and ", sides[i + 1].triangle,
-                           " run in opposite senses at ", edge, ": one of them is flipped"));
-  }
+    else if (first->upwards == std::prev(last)->upwards)
+      defects.add(MeshDefectKind::InconsistentOrientation, second,
+                  sentence("triangles ", f, " and ", second, " run in opposite senses at ", edge(),
+                           ": one of them is flipped"));
+  });
 }
 
 /// The triangles around each vertex of a closed edge-manifold must form one fan.
@@ -174,9 +163,22 @@ void findVertexDefects(int vertexCount, const Eigen::Matrix3Xi& triangles, Defec
 
 }  // namespace
 
+bool isUsablePoint(const Eigen::Vector3d& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kLargestCoordinate;
+}
+
+bool isDegenerateTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c) {
+  return TriangleSize(a, b, c).isDegenerate();
+}
+
 std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distance) {
-  const Eigen::RowVector3d direction(0.5257311121191336, 0.6180339887498949, 0.5851023839);
-  const Eigen::VectorXd key = (direction.normalized() * points).transpose();
+  // Keys relative to a point of the set, so that a far-away origin does not swallow the distance.
+  const Eigen::Vector3d direction =
+      Eigen::Vector3d(0.5257311121191336, 0.6180339887498949, 0.5851023839).normalized();
+  std::vector<double> key(points.cols());
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    key[v] = direction.dot(points.col(v) - points.col(0));
   std::vector<int> order(points.cols()), twin(points.cols());
   std::iota(order.begin(), order.end(), 0);
   std::iota(twin.begin(), twin.end(), 0);
@@ -209,6 +211,27 @@ std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
   findEdgeDefects(triangles, defects);
   if (!defects.empty()) return defects.take();
   findVertexDefects(static_cast<int>(points.cols()), triangles, defects);
+  return defects.take();
+}
+
+std::vector<MeshDefect> findOrientationDefects(const Shells& shells, std::size_t largestCount) {
+  DefectList defects(largestCount);
+  for (int s = 0; s < shells.count(); ++s) {
+    const int f = shells.firstTriangle[s];
+    const bool cavity = shells.depth[s] % 2 == 1;
+    if (shells.volume[s] == 0)
+      defects.add(MeshDefectKind::NoVolume, f,
+                  sentence("the surface of triangle ", f, " encloses no volume"));
+    else if (cavity && shells.volume[s] > 0)
+      defects.add(MeshDefectKind::InwardOrientation, f,
+                  sentence("the cavity of triangle ", f,
+                           " is not a hole: its normals must point out of the material, into the "
+                           "cavity"));
+    else if (!cavity && shells.volume[s] < 0)
+      defects.add(MeshDefectKind::InwardOrientation, f,
+                  sentence("the surface is inside out at triangle ", f,
+                           ": its normals must point outwards"));
+  }
   return defects.take();
 }
 

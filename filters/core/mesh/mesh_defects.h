@@ -24,6 +24,7 @@ enum class MeshDefectKind {
   InconsistentOrientation,
   NonManifoldVertex,
   InwardOrientation,
+  NoVolume,
   SelfIntersection,
 };
 
@@ -34,16 +35,30 @@ struct MeshDefect {
   std::string sentence;  ///< for the user: names the index and the value
 };
 
+/// Vertices closer than this, as a part of the bounding box's diagonal, are duplicates.
+constexpr double kDuplicateDistance = 1e-9;
+
+/// Finite and small enough (1e60) for areas and volumes to be finite, too.
+bool isUsablePoint(const Eigen::Vector3d& point);
+
+/// True if a triangle's height is below 1e-10 of its longest edge, or that edge below 1e-70 (where
+/// squared areas vanish).
+bool isDegenerateTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c);
+
 /// Finds what keeps triangles from being a closed, oriented manifold without degenerate triangles.
 /// The check stops after the first kind of defect that later kinds depend on.
 /// @param points         3 by #V.
 /// @param triangles      3 by #F.
 /// @param largestCount   at most so many defects are listed.
-/// Vertices closer than 1e-9 of the bounding box's diagonal are duplicates; a triangle whose height
-/// is below 1e-10 of its longest edge is degenerate.
 std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
                                         const Eigen::Matrix3Xi& triangles,
                                         std::size_t largestCount = 16);
+
+struct Shells;
+
+/// Shells that enclose nothing or whose triangles point into the material.
+std::vector<MeshDefect> findOrientationDefects(const Shells& shells, std::size_t largestCount = 16);
 
 /// @throws std::invalid_argument with the first defect's sentence, if there is any.
 void requireNoDefect(const std::vector<MeshDefect>& defects);
@@ -54,7 +69,7 @@ std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distan
 
 /// Triangles that cross each other or touch beyond a shared vertex or edge (CGAL). Empty when the
 /// library was built without CGAL.
-/// @param largestCount  at most so many pairs are listed.
+/// @param largestCount  at most so many pairs are listed, those of the lowest triangles.
 std::vector<MeshDefect> findSelfIntersections(const SurfaceMesh& mesh,
                                               std::size_t largestCount = 16);
 

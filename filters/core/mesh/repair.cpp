@@ -3,274 +3,361 @@
 
 #include "mesh/repair.h"
 
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/merge_border_vertices.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "mesh/cgal_surface.h"
 #include "mesh/mesh_defects.h"
+#include "mesh/shells.h"
 #include "mesh/surface_mesh.h"
+#include "mesh/triangle_soup.h"
 
 namespace palpate {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-constexpr double kWeldDistance = 1e-9;  // of the diagonal
+using Vertex = CgalSurface::Vertex_index;
+using Halfedge = CgalSurface::Halfedge_index;
+using Face = CgalSurface::Face_index;
 
-/// Builds "welded 12 vertices (3, 5, 9, ...)" from the things that one step touched.
-class ChangeList {
- public:
-  explicit ChangeList(std::vector<std::string>& changes) : changes_(changes) {}
-  void add(const std::string& what, const std::string& things, const std::vector<int>& which) {
-    if (which.empty()) return;
-    std::ostringstream text;
-    text << what << " " << which.size() << " " << things << " (";
-    for (std::size_t i = 0; i < which.size() && i < 8; ++i) text << (i ? ", " : "") << which[i];
-    text << (which.size() > 8 ? ", ...)" : ")");
-    changes_.push_back(text.str());
+/// A surface under repair; new vertices and faces get the origin -1.
+struct Surface {
+  CgalSurface mesh;
+  CgalSurface::Property_map<Vertex, int> vertexOrigin;
+  CgalSurface::Property_map<Face, int> faceOrigin;
+
+  Surface()
+      : vertexOrigin(mesh.add_property_map<Vertex, int>("v:origin", -1).first),
+        faceOrigin(mesh.add_property_map<Face, int>("f:origin", -1).first) {}
+  Eigen::Vector3d point(Vertex v) const {
+    const CgalPoint& x = mesh.point(v);
+    return {x.x(), x.y(), x.z()};
   }
-
- private:
-  std::vector<std::string>& changes_;
+  std::array<Vertex, 3> corners(Face f) const {
+    const Halfedge h = mesh.halfedge(f);
+    return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
+  }
 };
 
-using Polygon = std::array<std::size_t, 3>;
+/// Records the points that orient_polygon_soup copies.
+struct CopyRecorder : PMP::Default_orientation_visitor {
+  std::vector<int>& original;
+  explicit CopyRecorder(std::vector<int>& list) : original(list) {}
+  void duplicated_vertex(std::size_t from, std::size_t) { original.push_back(original[from]); }
+};
 
-/// A triangle soup that remembers where its points and triangles come from.
-struct Soup {
+/// Turns the triangles of each piece the same way round, and copies vertices at which several
+/// sheets of a piece touch.
+void orient(TriangleSoup& soup) {
+  std::vector<int> original(soup.points.size());
+  std::iota(original.begin(), original.end(), 0);
+  PMP::orient_polygon_soup(soup.points, soup.triangles,
+                           CGAL::parameters::visitor(CopyRecorder(original)));
+  for (std::size_t v = soup.vertexOrigin.size(); v < original.size(); ++v)
+    soup.vertexOrigin.push_back(soup.vertexOrigin[original[v]]);
+  requireTwoSided(soup, original);
+}
+
+/// @param soup  oriented.
+void build(Surface& surface, const TriangleSoup& soup) {
   std::vector<CgalPoint> points;
-  std::vector<int> pointOrigin;
-  std::vector<Polygon> triangles;
-  std::vector<int> triangleOrigin;
-};
-
-bool isUsable(const Eigen::Vector3d& x) {
-  return x.allFinite() && x.cwiseAbs().maxCoeff() < 1e100;
+  for (const Eigen::Vector3d& x : soup.points) points.push_back(toCgal(x));
+  PMP::polygon_soup_to_polygon_mesh(points, soup.triangles, surface.mesh);
+  for (Vertex v : surface.mesh.vertices()) surface.vertexOrigin[v] = soup.vertexOrigin[v.idx()];
+  for (Face f : surface.mesh.faces()) surface.faceOrigin[f] = soup.triangleOrigin[f.idx()];
+  // Where two holes met in a vertex, orientation made one hole and two vertices of them.
+  PMP::merge_duplicated_vertices_in_boundary_cycles(surface.mesh);
 }
 
-/// Keeps the triangles whose indices and coordinates can be used, welded, distinct and not
-/// collapsed.
-Soup cleanSoup(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
-               ChangeList& changes) {
-  Eigen::Matrix3Xd usable = points;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    if (isUsable(points.col(v))) {
-      low = low.cwiseMin(points.col(v));
-      high = high.cwiseMax(points.col(v));
-    }
-  const double diagonal = (high - low).norm();
-  for (Eigen::Index v = 0; v < points.cols(); ++v)  // out of the way, each at a place of its own
-    if (!isUsable(points.col(v)))
-      usable.col(v) = high + Eigen::Vector3d::Constant((v + 1) * (diagonal + 1));
-  const std::vector<int> twin = nearestDuplicates(usable, kWeldDistance * diagonal);
-
-  Soup soup;
-  std::vector<int> unusable, collapsed, repeated, welded, unused;
-  std::vector<int> number(points.cols(), -1);
-  std::set<Polygon> seen;
-  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3i t = triangles.col(f);
-    if (t.minCoeff() < 0 || t.maxCoeff() >= points.cols() || !isUsable(points.col(t[0])) ||
-        !isUsable(points.col(t[1])) || !isUsable(points.col(t[2]))) {
-      unusable.push_back(static_cast<int>(f));
-      continue;
-    }
-    const Eigen::Vector3i w(twin[t[0]], twin[t[1]], twin[t[2]]);
-    if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) {
-      collapsed.push_back(static_cast<int>(f));
-      continue;
-    }
-    Polygon key{std::size_t(w[0]), std::size_t(w[1]), std::size_t(w[2])};
-    std::sort(key.begin(), key.end());
-    if (!seen.insert(key).second) {
-      repeated.push_back(static_cast<int>(f));
-      continue;
-    }
-    Polygon polygon;
-    for (int k = 0; k < 3; ++k) {
-      if (w[k] != t[k]) welded.push_back(t[k]);
-      if (number[w[k]] < 0) {
-        number[w[k]] = static_cast<int>(soup.points.size());
-        soup.points.push_back(toCgal(points.col(w[k])));
-        soup.pointOrigin.push_back(w[k]);
-      }
-      polygon[k] = number[w[k]];
-    }
-    soup.triangles.push_back(polygon);
-    soup.triangleOrigin.push_back(static_cast<int>(f));
+/// Triangles from one vertex of a hole's border to its edges, if that doubles no edge.
+bool fillWithFan(CgalSurface& mesh, const std::vector<Vertex>& border) {
+  const std::size_t count = border.size();
+  for (std::size_t tip = 0; tip < count; ++tip) {
+    const auto vertex = [&](std::size_t i) { return border[(tip + i) % count]; };
+    bool isFree = true;
+    for (std::size_t i = 2; i + 1 < count; ++i)
+      isFree = isFree && !mesh.halfedge(vertex(0), vertex(i)).is_valid();
+    if (!isFree) continue;
+    for (std::size_t i = 1; i + 1 < count; ++i) mesh.add_face(vertex(0), vertex(i), vertex(i + 1));
+    return true;
   }
-  std::sort(welded.begin(), welded.end());
-  welded.erase(std::unique(welded.begin(), welded.end()), welded.end());
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    if (number[v] < 0 && !std::binary_search(welded.begin(), welded.end(), int(v)))
-      unused.push_back(static_cast<int>(v));
-  changes.add("dropped", "triangles with unusable indices or coordinates", unusable);
-  changes.add("welded", "vertices to another at the same place", welded);
-  changes.add("dropped", "triangles with a repeated vertex", collapsed);
-  changes.add("dropped", "triangles that repeat another", repeated);
-  changes.add("dropped", "unused vertices", unused);
-  return soup;
-}
-
-/// Records what orient_polygon_soup does, in the numbers of the input.
-struct OrientationVisitor : PMP::Default_orientation_visitor {
-  Soup& soup;
-  std::vector<int>&turned, &split;
-  OrientationVisitor(Soup& s, std::vector<int>& t, std::vector<int>& d)
-      : soup(s), turned(t), split(d) {}
-  void polygon_orientation_reversed(std::size_t f) { turned.push_back(soup.triangleOrigin[f]); }
-  void duplicated_vertex(std::size_t from, std::size_t) {
-    split.push_back(soup.pointOrigin[from]);
-    soup.pointOrigin.push_back(soup.pointOrigin[from]);
-  }
-};
-
-/// Turned triangles count as turned only against the majority: a wholly reversed soup is put right
-/// by the last step.
-void orient(Soup& soup, ChangeList& changes, std::vector<int>& turned) {
-  std::vector<int> split;
-  OrientationVisitor visitor(soup, turned, split);
-  PMP::orient_polygon_soup(soup.points, soup.triangles, CGAL::parameters::visitor(visitor));
-  changes.add("split", "vertices where the surface was not a manifold", split);
+  return false;
 }
 
 /// Closes holes by triangles between their border's vertices.
-void fillHoles(CgalSurface& surface, ChangeList& changes) {
-  std::vector<CgalSurface::Halfedge_index> borders;
-  std::vector<bool> seen(surface.num_halfedges() + surface.number_of_removed_edges() * 2, false);
-  std::vector<int> lengths;
-  for (CgalSurface::Halfedge_index h : surface.halfedges()) {
-    if (!surface.is_border(h) || seen[h.idx()]) continue;
-    borders.push_back(h);
-    int length = 0;
-    CgalSurface::Halfedge_index step = h;
-    do {
-      seen[step.idx()] = true;
-      ++length;
-      step = surface.next(step);
-    } while (step != h);
-    lengths.push_back(length);
+void fillHoles(Surface& surface, ChangeList& changes) {
+  constexpr std::size_t longestForCubicSearch = 200;
+  std::vector<Halfedge> holes;
+  PMP::extract_boundary_cycles(surface.mesh, std::back_inserter(holes));
+  for (Halfedge hole : holes) {
+    std::vector<Vertex> border;
+    for (Vertex v : surface.mesh.vertices_around_face(hole)) border.push_back(v);
+    std::vector<Face> patch;
+    PMP::triangulate_hole(
+        surface.mesh, hole, std::back_inserter(patch),
+        CGAL::parameters::do_not_use_cubic_algorithm(border.size() > longestForCubicSearch));
+    // CGAL refuses triangles without height, such as close the crack beside a vertex on an edge.
+    if (patch.empty() && !fillWithFan(surface.mesh, border)) continue;
+    std::ostringstream text;
+    text << "filled the hole of " << border.size() << " edges at vertex "
+         << surface.vertexOrigin[border.front()];
+    changes.add(text.str());
   }
-  for (CgalSurface::Halfedge_index h : borders) {
-    std::vector<CgalSurface::Face_index> patch;
-    PMP::triangulate_hole(surface, h, std::back_inserter(patch));
+}
+
+bool isDegenerate(const Surface& surface, Face f) {
+  const std::array<Vertex, 3> t = surface.corners(f);
+  return isDegenerateTriangle(surface.point(t[0]), surface.point(t[1]), surface.point(t[2]));
+}
+
+Halfedge longestSide(const Surface& surface, Face f) {
+  const CgalSurface& mesh = surface.mesh;
+  const auto length = [&](Halfedge h) {
+    return (surface.point(mesh.target(h)) - surface.point(mesh.source(h))).norm();
+  };
+  Halfedge longest = mesh.halfedge(f);
+  for (Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+    if (length(h) > length(longest)) longest = h;
+  return longest;
+}
+
+/// A triangle without height, whose vertices are apart, has one of them on its longest edge: that
+/// edge is flipped, so that the triangle beyond it is cut in two at that vertex.
+void flipDegenerateTriangles(Surface& surface, ChangeList& changes) {
+  CgalSurface& mesh = surface.mesh;
+  std::vector<Face> suspects;
+  for (Face f : mesh.faces())
+    if (isDegenerate(surface, f)) suspects.push_back(f);
+  std::vector<int> flipped;
+  std::size_t attempts = 100 + 10 * suspects.size();  // flips might go round in circles
+  while (!suspects.empty() && attempts-- > 0) {
+    const Face f = suspects.back();
+    suspects.pop_back();
+    if (!isDegenerate(surface, f)) continue;
+    const Halfedge side = longestSide(surface, f), beyond = mesh.opposite(side);
+    if (mesh.is_border(beyond)) continue;
+    const Face other = mesh.face(beyond);
+    if (mesh.halfedge(mesh.target(mesh.next(side)), mesh.target(mesh.next(beyond))).is_valid())
+      continue;
+    if (surface.faceOrigin[f] >= 0) flipped.push_back(surface.faceOrigin[f]);
+    CGAL::Euler::flip_edge(side, mesh);
+    surface.faceOrigin[f] = surface.faceOrigin[other];
+    suspects.insert(suspects.end(), {f, other});
   }
-  changes.add("filled", "holes, with borders of so many edges", lengths);
+  changes.add("flipped the longest edge of triangles without height", flipped);
 }
 
-std::vector<int> intersectingTriangles(const CgalSurface& surface) {
-  std::vector<std::pair<CgalSurface::Face_index, CgalSurface::Face_index>> pairs;
-  PMP::self_intersections(surface, std::back_inserter(pairs));
-  std::set<int> faces;
-  for (const auto& [a, b] : pairs) faces.insert({int(a.idx()), int(b.idx())});
-  return {faces.begin(), faces.end()};
-}
-
-std::vector<int> degenerateTriangles(const CgalSurface& surface) {
-  std::vector<int> faces;
-  for (CgalSurface::Face_index f : surface.faces())
-    if (PMP::is_degenerate_triangle_face(f, surface)) faces.push_back(static_cast<int>(f.idx()));
-  return faces;
-}
-
-std::vector<int> inOriginalNumbers(const std::vector<int>& triangles, const Soup& soup) {
-  std::vector<int> original;
-  for (int f : triangles)
-    original.push_back(f < int(soup.triangleOrigin.size()) ? soup.triangleOrigin[f] : -1);
-  return original;
-}
-
-void mend(CgalSurface& surface, const Soup& soup, std::vector<int> turned, ChangeList& changes,
-          const Progress& progress) {
-  const std::size_t stitched = PMP::stitch_borders(surface);
-  if (stitched) changes.add("stitched", "pairs of border edges", std::vector<int>(stitched, 0));
-  progress.report(0.3, "repair");
-  const std::vector<int> degenerate = degenerateTriangles(surface);
-  if (!degenerate.empty()) {
-    PMP::remove_degenerate_faces(surface);
-    changes.add("collapsed", "degenerate triangles", inOriginalNumbers(degenerate, soup));
+/// Where copies of a vertex remain, sheets of the surface touch in a point: each is drawn back from
+/// it, towards its own neighbours, by a thousandth of their distance.
+void partTouchingSheets(Surface& surface, ChangeList& changes) {
+  constexpr double step = 1e-3;
+  CgalSurface& mesh = surface.mesh;
+  std::map<std::array<double, 3>, std::vector<Vertex>> atPlace;
+  for (Vertex v : mesh.vertices()) {
+    const Eigen::Vector3d x = surface.point(v);
+    atPlace[{x.x(), x.y(), x.z()}].push_back(v);
   }
-  progress.report(0.4, "repair");
+  std::vector<std::pair<Vertex, Eigen::Vector3d>> moves;
+  std::vector<int> touching;
+  for (const auto& [place, copies] : atPlace) {
+    if (copies.size() < 2) continue;
+    touching.push_back(surface.vertexOrigin[copies.front()]);
+    for (Vertex v : copies) {
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (Vertex neighbour : mesh.vertices_around_target(mesh.halfedge(v)))
+        middle += surface.point(neighbour) / mesh.degree(v);
+      moves.emplace_back(v, (1 - step) * surface.point(v) + step * middle);
+    }
+  }
+  for (const auto& [v, x] : moves) mesh.point(v) = toCgal(x);
+  changes.add("parted the sheets of the surface that touched at vertices", touching);
+}
+
+std::vector<std::pair<Face, Face>> crossingTriangles(const CgalSurface& mesh) {
+  std::vector<std::pair<Face, Face>> pairs;
+  PMP::self_intersections(mesh, std::back_inserter(pairs));
+  return pairs;
+}
+
+/// In the numbers of the input.
+std::string describeCrossing(const Surface& surface, const std::pair<Face, Face>& pair) {
+  const auto name = [&](Face f) {
+    const int origin = surface.faceOrigin[f];
+    return origin < 0 ? std::string("one that fills a hole") : std::to_string(origin);
+  };
+  return "triangles " + name(pair.first) + " and " + name(pair.second) + " cut through each other";
+}
+
+/// Two shells that cut through each other might bound their union, or what they have in common.
+void requireOneShell(const Surface& surface, const std::vector<std::pair<Face, Face>>& crossing) {
+  std::vector<std::size_t> shell(surface.mesh.num_faces());
+  const auto shellOf = [&](Face f) -> std::size_t& { return shell[f.idx()]; };
+  PMP::connected_components(surface.mesh, boost::make_function_property_map<Face>(shellOf));
+  for (const std::pair<Face, Face>& pair : crossing)
+    if (shellOf(pair.first) != shellOf(pair.second))
+      throw std::invalid_argument(
+          describeCrossing(surface, pair) +
+          ": they belong to two shells, and it is not clear what body these bound");
+}
+
+void removeSelfIntersections(Surface& surface, ChangeList& changes) {
+  CgalSurface& mesh = surface.mesh;
+  const std::vector<std::pair<Face, Face>> crossing = crossingTriangles(mesh);
+  if (crossing.empty()) return;
+  requireOneShell(surface, crossing);
+  std::map<Face, std::array<Vertex, 3>> before;
+  std::set<int> originsBefore;
+  for (Face f : mesh.faces()) {
+    before[f] = surface.corners(f);
+    if (surface.faceOrigin[f] >= 0) originsBefore.insert(surface.faceOrigin[f]);
+  }
+  const std::string description = describeCrossing(surface, crossing.front());
+
+  if (!PMP::experimental::remove_self_intersections(mesh))
+    throw std::invalid_argument(description + ", and the surface cannot be rebuilt there");
+  std::set<int> replaced = std::move(originsBefore);
+  for (Face f : mesh.faces()) {  // CGAL uses faces again for what it puts in their place
+    const auto corners = before.find(f);
+    if (corners == before.end() || corners->second != surface.corners(f))
+      surface.faceOrigin[f] = -1;
+    replaced.erase(surface.faceOrigin[f]);
+  }
+  changes.add("rebuilt the surface where triangles cut through each other",
+              {replaced.begin(), replaced.end()});
   fillHoles(surface, changes);
-  progress.report(0.6, "repair");
-  const std::vector<int> crossing = intersectingTriangles(surface);
-  if (!crossing.empty()) {
-    PMP::experimental::remove_self_intersections(surface);
-    fillHoles(surface, changes);
-    changes.add("rebuilt the surface at", "triangles that cut through each other",
-                inOriginalNumbers(crossing, soup));
-  }
-  progress.report(0.8, "repair");
-
-  std::vector<CgalPoint> before;
-  CgalSurface reference = surface;
-  if (CGAL::is_closed(surface)) PMP::orient_to_bound_a_volume(surface);
-  std::set<int> reversed(turned.begin(), turned.end());
-  for (CgalSurface::Face_index f : surface.faces()) {
-    const auto firstOf = [](const CgalSurface& s, CgalSurface::Face_index face) {
-      return s.target(s.halfedge(face));
-    };
-    // A face is reversed if its cycle runs the other way round than before.
-    const auto h = surface.halfedge(f);
-    const auto a = surface.source(h), b = surface.target(h);
-    auto r = reference.halfedge(f);
-    bool same = false;
-    for (int k = 0; k < 3; ++k, r = reference.next(r))
-      same = same || (reference.source(r) == a && reference.target(r) == b);
-    (void)firstOf;
-    if (same || f.idx() >= soup.triangleOrigin.size()) continue;
-    const int original = soup.triangleOrigin[f.idx()];
-    if (!reversed.erase(original)) reversed.insert(original);
-  }
-  changes.add("turned", "triangles round", {reversed.begin(), reversed.end()});
 }
 
-RepairedSurface extract(const CgalSurface& surface, const Soup& soup) {
+RepairedSurface extract(const Surface& surface) {
   RepairedSurface out;
-  std::vector<int> number(surface.num_vertices() + surface.number_of_removed_vertices(), -1);
-  out.points.resize(3, surface.number_of_vertices());
-  out.triangles.resize(3, surface.number_of_faces());
-  int count = 0;
-  for (CgalSurface::Vertex_index v : surface.vertices()) {
-    if (surface.is_isolated(v)) continue;
-    number[v.idx()] = count;
-    const CgalPoint& x = surface.point(v);
-    out.points.col(count++) << x.x(), x.y(), x.z();
-    const bool known = v.idx() < soup.pointOrigin.size();
-    out.originalVertex.push_back(known ? soup.pointOrigin[v.idx()] : -1);
+  out.points.resize(3, surface.mesh.number_of_vertices());
+  out.triangles.resize(3, surface.mesh.number_of_faces());
+  std::map<Vertex, int> number;
+  for (Vertex v : surface.mesh.vertices()) {
+    if (surface.mesh.is_isolated(v)) continue;
+    const int next = static_cast<int>(number.size());
+    number[v] = next;
+    out.points.col(next) = surface.point(v);
+    out.originalVertex.push_back(surface.vertexOrigin[v]);
   }
-  out.points.conservativeResize(3, count);
-  int face = 0;
-  for (CgalSurface::Face_index f : surface.faces()) {
-    int k = 0;
-    for (CgalSurface::Vertex_index v : surface.vertices_around_face(surface.halfedge(f)))
-      out.triangles(k++, face) = number[v.idx()];
-    ++face;
-    const bool known = f.idx() < soup.triangleOrigin.size();
-    out.originalTriangle.push_back(known ? soup.triangleOrigin[f.idx()] : -1);
+  out.points.conservativeResize(3, number.size());
+  for (Face f : surface.mesh.faces()) {
+    const std::array<Vertex, 3> t = surface.corners(f);
+    out.triangles.col(out.originalTriangle.size()) << number[t[0]], number[t[1]], number[t[2]];
+    out.originalTriangle.push_back(surface.faceOrigin[f]);
   }
   return out;
 }
 
-bool isSound(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
-  if (!findMeshDefects(points, triangles, 1).empty()) return false;
-  try {
-    return findSelfIntersections(SurfaceMesh(points, triangles), 1).empty();
-  } catch (const std::invalid_argument&) {
-    return false;  // inside out
+/// @param surface  without mesh defects.
+void turnOutwards(RepairedSurface& surface) {
+  const Shells shells = findShells(surface.points, surface.triangles);
+  for (auto t : surface.triangles.colwise()) {
+    const int shell = shells.ofVertex[t[0]];
+    const bool isCavity = shells.depth[shell] % 2 == 1;
+    if ((shells.volume[shell] > 0) == isCavity) std::swap(t[1], t[2]);
   }
+}
+
+bool isTurned(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+  for (int k = 0; k < 3; ++k)
+    if (a[0] == b[k] && a[1] == b[(k + 2) % 3] && a[2] == b[(k + 1) % 3]) return true;
+  return false;
+}
+
+/// @param soup  the cleaned input.
+void reportVerticesAndTurns(const RepairedSurface& surface, const TriangleSoup& soup,
+                            ChangeList& changes) {
+  std::map<int, Eigen::Vector3d> placeBefore;
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    placeBefore[soup.vertexOrigin[v]] = soup.points[v];
+  std::vector<int> moved, removed, turned;
+  for (std::size_t v = 0; v < surface.originalVertex.size(); ++v) {
+    const int origin = surface.originalVertex[v];
+    if (origin >= 0 && placeBefore[origin] != surface.points.col(v)) moved.push_back(origin);
+  }
+  const std::set<int> left(surface.originalVertex.begin(), surface.originalVertex.end());
+  for (int origin : soup.vertexOrigin)
+    if (!left.count(origin)) removed.push_back(origin);
+  std::map<int, std::array<int, 3>> cornersBefore;
+  for (std::size_t f = 0; f < soup.triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      cornersBefore[soup.triangleOrigin[f]][k] = soup.vertexOrigin[soup.triangles[f][k]];
+  for (std::size_t f = 0; f < surface.originalTriangle.size(); ++f) {
+    const int origin = surface.originalTriangle[f];
+    if (origin < 0) continue;
+    std::array<int, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = surface.originalVertex[surface.triangles(k, f)];
+    if (isTurned(corners, cornersBefore[origin])) turned.push_back(origin);
+  }
+  changes.add("dropped vertices that are in no triangle any more", removed);
+  changes.add("moved vertices", moved);
+  changes.add("turned triangles round", turned);
+}
+
+/// The sentence about the first thing that SurfaceMesh or its user would refuse; empty if none.
+std::string firstDefect(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+  std::vector<MeshDefect> defects = findMeshDefects(points, triangles, 1);
+  if (defects.empty()) defects = findOrientationDefects(findShells(points, triangles), 1);
+  if (defects.empty()) defects = findSelfIntersections(SurfaceMesh(points, triangles), 1);
+  return defects.empty() ? "" : defects.front().sentence;
+}
+
+/// @throws std::invalid_argument with the bare reason.
+RepairedSurface mend(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
+                     ChangeList& changes, const Progress& progress) {
+  TriangleSoup soup = cleanSoup(points, triangles, changes);
+  const TriangleSoup cleaned = soup;
+  dropLooseTriangles(soup, changes);
+  if (soup.triangles.empty())
+    throw std::invalid_argument("it has no triangle that could bound a body");
+  separatePieces(soup);
+  orient(soup);
+  progress.report(0.2, "repair");
+  Surface surface;
+  build(surface, soup);
+  fillHoles(surface, changes);
+  progress.report(0.4, "repair");
+  flipDegenerateTriangles(surface, changes);
+  partTouchingSheets(surface, changes);
+  progress.report(0.5, "repair");
+  removeSelfIntersections(surface, changes);
+  progress.report(0.8, "repair");
+
+  RepairedSurface result = extract(surface);
+  if (findMeshDefects(result.points, result.triangles, 1).empty()) turnOutwards(result);
+  reportVerticesAndTurns(result, cleaned, changes);
+  const std::string defect = firstDefect(result.points, result.triangles);
+  if (!defect.empty()) throw std::invalid_argument(defect);
+  return result;
+}
+
+/// The reason, and what had been changed until it turned up: that may have brought it about.
+std::string refusal(const std::string& reason, const ChangeList& changes) {
+  std::string text = "the surface cannot be mended: " + reason;
+  for (std::size_t i = 0; i < changes.changes().size(); ++i)
+    text += (i ? "; " : ", after these changes: ") + changes.changes()[i];
+  return text;
+}
+
+RepairedSurface unchanged(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+  RepairedSurface same{
+      points, triangles, std::vector<int>(points.cols()), std::vector<int>(triangles.cols()), {}};
+  std::iota(same.originalVertex.begin(), same.originalVertex.end(), 0);
+  std::iota(same.originalTriangle.begin(), same.originalTriangle.end(), 0);
+  return same;
 }
 
 }  // namespace
@@ -278,31 +365,20 @@ bool isSound(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) 
 RepairedSurface repairSurface(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
                               const ProgressCallback& callback) {
   const Progress progress(callback);
-  RepairedSurface result;
-  if (isSound(points, triangles)) {
-    result.points = points;
-    result.triangles = triangles;
-    for (Eigen::Index v = 0; v < points.cols(); ++v) result.originalVertex.push_back(int(v));
-    for (Eigen::Index f = 0; f < triangles.cols(); ++f) result.originalTriangle.push_back(int(f));
+  ChangeList changes;
+  try {
+    const bool isSound = firstDefect(points, triangles).empty();
+    progress.report(0.1, "repair");
+    RepairedSurface result =
+        isSound ? unchanged(points, triangles) : mend(points, triangles, changes, progress);
+    result.changes = changes.changes();
     progress.report(1, "repair");
     return result;
+  } catch (const std::invalid_argument& reason) {
+    throw std::invalid_argument(refusal(reason.what(), changes));
+  } catch (const CGAL::Failure_exception& failure) {
+    throw std::runtime_error(refusal("CGAL gave up (" + failure.expression() + " " + failure.message() + ")", changes));
   }
-  progress.report(0.1, "repair");
-  std::vector<std::string> changes;
-  ChangeList list(changes);
-  Soup soup = cleanSoup(points, triangles, list);
-  std::vector<int> turned;
-  if (!soup.triangles.empty()) orient(soup, list, turned);
-  progress.report(0.2, "repair");
-  CgalSurface surface;
-  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
-  mend(surface, soup, turned, list, progress);
-  result = extract(surface, soup);
-  result.changes = std::move(changes);
-  requireNoDefect(findMeshDefects(result.points, result.triangles, 1));
-  requireNoDefect(findSelfIntersections(SurfaceMesh(result.points, result.triangles), 1));
-  progress.report(1, "repair");
-  return result;
 }
 
 }  // namespace palpate

@@ -21,14 +21,16 @@ struct RepairedSurface {
 };
 
 /// Mends a triangle soup into a surface that SurfaceMesh accepts, as far as that can be done
-/// without guessing (CGAL): drops unusable, degenerate and repeated triangles and unused vertices,
-/// welds vertices within 1e-9 of the diagonal, splits non-manifold edges and vertices, stitches
-/// borders, fills holes, removes self-intersections, and turns triangles to point out of the
-/// material. A sound surface comes back unchanged, with no changes reported.
+/// without guessing (CGAL): drops unusable, collapsed and repeated triangles, dangling and flat
+/// pieces and unused vertices, welds vertices within 1e-9 of the diagonal, parts sheets that touch
+/// at vertices or edges, fills holes, flips triangles without height, rebuilds the surface where it
+/// cuts through itself, and turns triangles to point out of the material. A sound surface comes
+/// back unchanged, with no changes reported.
 /// @param points     3 by #V.
 /// @param triangles  3 by #F.
-/// @throws std::invalid_argument with the first defect that is left, if any is; std::runtime_error
-///         when the library was built without CGAL; Aborted.
+/// @throws std::invalid_argument "the surface cannot be mended: ..." with the first defect that is
+///         left, or with what would have to be guessed; std::runtime_error when CGAL gives up or
+///         the library was built without it; Aborted.
 RepairedSurface repairSurface(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles,
                               const ProgressCallback& progress = {});
 

@@ -11,6 +11,7 @@ namespace palpate {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kRounding = 1e-14;  // of a shell's area times its diagonal
 
 int findRoot(std::vector<int>& parent, int v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -63,13 +64,17 @@ Shells findShells(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triang
   for (int s = 0; s < count; ++s) {
     const Eigen::Vector3d origin = points.col(someVertex[s]);
     shells.firstTriangle.push_back(byShell[s].front());
+    double area = 0;
     for (int f : byShell[s]) {
       const Eigen::Vector3d a = points.col(triangles(0, f)) - origin;
       const Eigen::Vector3d b = points.col(triangles(1, f)) - origin;
       const Eigen::Vector3d c = points.col(triangles(2, f)) - origin;
       shells.volume[s] += a.dot(b.cross(c)) / 6;
+      area += (b - a).cross(c - a).norm() / 2;
       for (int k = 0; k < 3; ++k) box[s].extend(points.col(triangles(k, f)));
     }
+    if (std::abs(shells.volume[s]) <= kRounding * area * box[s].diagonal().norm())
+      shells.volume[s] = 0;
   }
   for (int inner = 0; inner < count; ++inner) {
     const Eigen::Vector3d x = points.col(someVertex[inner]);

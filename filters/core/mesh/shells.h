@@ -10,8 +10,9 @@ namespace palpate {
 
 /// The connected components of a closed triangle surface and how they nest.
 struct Shells {
-  std::vector<int> ofVertex;       ///< #V, shell of each vertex
-  std::vector<double> volume;      ///< #shells, signed: positive where the normals point outwards
+  std::vector<int> ofVertex;  ///< #V, shell of each vertex
+  /// #shells, signed: positive where the normals point outwards, 0 where it is within rounding.
+  std::vector<double> volume;
   std::vector<int> parent;         ///< #shells, the smallest shell around this one, or -1
   std::vector<int> depth;          ///< #shells, how many shells are around this one
   std::vector<int> firstTriangle;  ///< #shells, lowest-numbered triangle

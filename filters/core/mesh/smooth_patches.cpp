@@ -29,9 +29,9 @@ Eigen::VectorXi findSmoothPatches(const SurfaceMesh& mesh, double smoothAngle) {
   if (!(smoothAngle >= 0 && smoothAngle <= 180))
     throw std::invalid_argument("the smooth angle must be 0 to 180 degrees, not " +
                                 std::to_string(smoothAngle));
-  // At 180 degrees every edge is smooth, even where rounding puts a cosine below -1.
-  const double smallestCosine =
-      smoothAngle >= 180 ? -2 : std::cos(smoothAngle * 3.14159265358979323846 / 180);
+  // At 0 degrees a plane is smooth, at 180 every edge, even where a cosine is rounded.
+  constexpr double rounding = 1e-12;
+  const double smallestCosine = std::cos(smoothAngle * 3.14159265358979323846 / 180) - rounding;
   Eigen::VectorXi patch = Eigen::VectorXi::Constant(mesh.triangleCount(), -1);
   int count = 0;
   std::vector<int> front;

@@ -4,7 +4,6 @@
 #include "mesh/surface_mesh.h"
 
 #include <Eigen/Geometry>
-#include <stdexcept>
 
 #include "mesh/mesh_defects.h"
 #include "mesh/shells.h"
@@ -52,16 +51,10 @@ void SurfaceMesh::computeGeometry() {
 
 void SurfaceMesh::computeShells() {
   const Shells shells = findShells(points_, triangles_);
+  requireNoDefect(findOrientationDefects(shells, 1));
   vertexShell_ = shells.ofVertex;
   for (int s = 0; s < shells.count(); ++s) {
     const bool cavity = shells.depth[s] % 2 == 1;
-    if ((shells.volume[s] > 0) == cavity)
-      throw std::invalid_argument(
-          cavity
-              ? "the cavity of triangle " + std::to_string(shells.firstTriangle[s]) +
-                    " is not a hole: its normals must point out of the material, into the cavity"
-              : "the surface is inside out at triangle " + std::to_string(shells.firstTriangle[s]) +
-                    ": its normals must point outwards");
     shellIsCavity_.push_back(cavity);
     shellBody_.push_back(cavity ? -1 : bodyCount_++);
   }

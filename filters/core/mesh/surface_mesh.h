@@ -20,7 +20,8 @@ class SurfaceMesh {
  public:
   /// @param points     3 by #V, coordinates in metres (or any one unit of length).
   /// @param triangles  3 by #F, vertex indices, counter-clockwise seen from outside the material.
-  /// @throws std::invalid_argument naming the first defect that `findMeshDefects` reports.
+  /// @throws std::invalid_argument naming the first defect that `findMeshDefects` or
+  ///         `findOrientationDefects` reports.
   SurfaceMesh(Eigen::Matrix3Xd points, Eigen::Matrix3Xi triangles);
 
   int vertexCount() const { return static_cast<int>(points_.cols()); }

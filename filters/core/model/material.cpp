@@ -3,20 +3,30 @@
 
 #include "model/material.h"
 
+#include <charconv>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace palpate {
+namespace {
+
+/// As few digits as tell the number apart from all others: one just beyond 0.5 does not read "0.5".
+std::string withAllDigits(double x) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, x).ptr);
+}
+
+}  // namespace
 
 Material::Material(double youngsModulus, double poissonRatio)
     : youngsModulus_(youngsModulus), poissonRatio_(poissonRatio) {
-  std::ostringstream text;
   if (!(youngsModulus > 0) || !std::isfinite(youngsModulus))
-    text << "Young's modulus must be a positive number, not " << youngsModulus;
-  else if (!(poissonRatio > -1 && poissonRatio <= 0.5))
-    text << "Poisson's ratio must be above -1 and at most 0.5, not " << poissonRatio;
-  if (!text.str().empty()) throw std::invalid_argument(text.str());
+    throw std::invalid_argument("Young's modulus must be a positive number, not " +
+                                withAllDigits(youngsModulus));
+  if (!(poissonRatio > -1 && poissonRatio <= 0.5))
+    throw std::invalid_argument("Poisson's ratio must be above -1 and at most 0.5, not " +
+                                withAllDigits(poissonRatio));
 }
 
 }  // namespace palpate

@@ -18,6 +18,7 @@
 #include "vtkTable.h"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkCapacitanceSolve);
@@ -114,7 +115,7 @@ public:
   }
 
   vtkIdType GetCount() const { return this->Count; }
-  int GetNode(vtkIdType i) const { return static_cast<int>(this->Node->GetComponent(i, 0)); }
+  double GetNode(vtkIdType i) const { return this->Node->GetComponent(i, 0); }
   bool IsDisplacement(vtkIdType i) const { return !this->Type || this->Type->GetComponent(i, 0) != 0; }
   int GetZone(vtkIdType i) const
   {
@@ -158,7 +159,7 @@ private:
 struct Problem
 {
   palpate::BoundaryValues Values;
-  std::map<int, std::vector<int>> Zones; // contact vertices by zone
+  std::map<int, std::set<int>> Zones; // vertices with prescribed displacement; 0 if there is none
 
   Problem(const ConstraintTable& table, const palpate::GreensFunctions& greens)
   {
@@ -167,25 +168,22 @@ struct Problem
     std::vector<double> prescribed;
     for (vtkIdType i = 0; i < table.GetCount(); ++i)
     {
-      const int node = table.GetNode(i);
-      if (node < 0 || node >= count)
+      if (!(table.GetNode(i) >= 0 && table.GetNode(i) < count))
       {
         throw std::invalid_argument("constraint " + std::to_string(i) + " names vertex " +
-          std::to_string(node) + ", but the surface has " + std::to_string(count));
+          std::to_string(static_cast<long long>(table.GetNode(i))) + ", but the surface has " +
+          std::to_string(count));
       }
+      const int node = static_cast<int>(table.GetNode(i));
       const Eigen::Vector3d value = table.GetValue(i), direction = table.GetDirection(i);
+      if (table.IsDisplacement(i))
+      {
+        this->Zones[table.GetZone(i)].insert(node);
+      }
       if (greens.isFixed(node) == table.IsDisplacement(i))
       {
         this->Values.given.col(node) += value;
         continue;
-      }
-      if (table.IsDisplacement(i))
-      {
-        std::vector<int>& zone = this->Zones[table.GetZone(i)];
-        if (zone.empty() || zone.back() != node)
-        {
-          zone.push_back(node);
-        }
       }
       if (direction.isZero(0))
       {
@@ -200,6 +198,10 @@ struct Problem
         this->Values.switches.push_back({ node, direction.normalized() });
         prescribed.push_back(value.dot(direction.normalized()));
       }
+    }
+    if (this->Zones.empty())
+    {
+      this->Zones[0];
     }
     this->Values.prescribed = Eigen::Map<Eigen::VectorXd>(prescribed.data(), prescribed.size());
   }
@@ -265,9 +267,14 @@ void vtkCapacitanceSolve::Compute(
 
   Eigen::Matrix3Xd forces(3, problem.Zones.size()), torques(3, problem.Zones.size());
   int zone = 0;
-  for (const auto& [number, nodes] : problem.Zones)
+  for (const auto& [number, members] : problem.Zones)
   {
-    const Eigen::Vector3d centre = mesh.points()(Eigen::all, nodes).rowwise().mean();
+    const std::vector<int> nodes(members.begin(), members.end());
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int node : nodes)
+    {
+      centre += mesh.points().col(node) / nodes.size();
+    }
     const palpate::Wrench wrench =
       palpate::wrenchOf(greens, mesh, nodes, solution.traction, centre);
     forces.col(zone) = wrench.force;

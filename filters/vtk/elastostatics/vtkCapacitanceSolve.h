@@ -15,10 +15,10 @@
  * - `Zone` (int, optional): the contact that the vertex belongs to; default 0.
  *
  * Output: the surface with `Displacement` and `Traction` at all vertices, and the field arrays
- * `ContactForce` and `ContactTorque` (about the centroid of the zone's vertices), a tuple a zone over
- * the contacts, and `ContactCondition`, the condition number of the capacitance matrix. D. L. James and
- * D. K. Pai 2001, sections 4 and 5. Inverses of the last constraint sets are kept while the input
- * stays.
+ * `ContactForce` and `ContactTorque` (about the centroid of the zone's vertices), a tuple a zone, over
+ * all vertices of the zone whose displacement is prescribed, and `ContactCondition`, the condition
+ * number of the capacitance matrix. D. L. James and D. K. Pai 2001, sections 4 and 5. Inverses of the
+ * last constraint sets are kept while the input stays.
  */
 
 #ifndef vtkCapacitanceSolve_h

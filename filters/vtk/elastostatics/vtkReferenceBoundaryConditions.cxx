@@ -7,8 +7,10 @@
 #include "conversion.h"
 #include "model/material.h"
 
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkExtractSelection.h"
+#include "vtkIdList.h"
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -109,25 +111,42 @@ vtkImplicitFunction* vtkReferenceBoundaryConditions::GetFixedFunction()
 
 namespace
 {
-/// 1 for each point of the surface that a selection holds.
+/// 1 for each point of the surface that a selection of points or of cells holds.
 std::vector<unsigned char> selectedPoints(vtkPolyData* surface, vtkSelection* selection)
 {
+  constexpr const char* insideName = "vtkInsidedness";
   vtkNew<vtkExtractSelection> extract;
   extract->SetInputData(0, surface);
   extract->SetInputData(1, selection);
   extract->PreserveTopologyOn();
   extract->Update();
   auto* marked = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
-  vtkDataArray* inside =
-    marked ? marked->GetPointData()->GetArray("vtkInsidedness") : nullptr;
-  if (!inside || inside->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  vtkDataArray* points = marked ? marked->GetPointData()->GetArray(insideName) : nullptr;
+  vtkDataArray* cells = marked ? marked->GetCellData()->GetArray(insideName) : nullptr;
+  std::vector<unsigned char> selected(surface->GetNumberOfPoints(), 0);
+  if (points && points->GetNumberOfTuples() == surface->GetNumberOfPoints())
   {
-    throw std::invalid_argument("the selection of fixed points does not fit the surface");
+    for (vtkIdType i = 0; i < points->GetNumberOfTuples(); ++i)
+    {
+      selected[i] = points->GetComponent(i, 0) > 0;
+    }
   }
-  std::vector<unsigned char> selected;
-  for (vtkIdType i = 0; i < inside->GetNumberOfTuples(); ++i)
+  else if (cells && cells->GetNumberOfTuples() == surface->GetNumberOfCells())
   {
-    selected.push_back(inside->GetComponent(i, 0) > 0);
+    vtkNew<vtkIdList> corners;
+    for (vtkIdType f = 0; f < cells->GetNumberOfTuples(); ++f)
+    {
+      marked->GetCellPoints(f, corners);
+      for (vtkIdType k = 0; cells->GetComponent(f, 0) > 0 && k < corners->GetNumberOfIds(); ++k)
+      {
+        selected[corners->GetId(k)] = 1;
+      }
+    }
+  }
+  else
+  {
+    throw std::invalid_argument(
+      "the selection of fixed points is neither one of this surface's points nor of its cells");
   }
   return selected;
 }

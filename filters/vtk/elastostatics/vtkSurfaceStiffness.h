@@ -5,8 +5,9 @@
  * @brief the stiffness that a point-like contact feels at every vertex
  *
  * Adds the point arrays `Stiffness` (3 by 3, row by row, N/m; symmetric positive definite),
- * `StiffnessNorm` (Frobenius), `StiffnessAsymmetry` (of the discrete compliance before symmetrising, an
- * indicator of its error), `HapticRatio` (of K^H to K^E) and `VertexArea`. Fixed vertices show the
+ * `StiffnessNorm` (Frobenius), `StiffnessAsymmetry` (relative, of the vertex's compliance before it is
+ * symmetrised: zero for single vertices of reciprocal Green's functions, and otherwise larger the more
+ * the surface varies under the mask), `HapticRatio` (of K^H to K^E) and `VertexArea`. Fixed vertices show the
  * rigid stiffness. Input: a surface with its Green's functions. James & Pai 2001, eq. 32, 33 and
  * section 6.4; fig. 7 is this array without and with a mask.
  */

@@ -10,6 +10,9 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <stdexcept>
+#include <string>
+
 vtkStandardNewMacro(vtkVertexPressureMask);
 
 void vtkVertexPressureMask::PrintSelf(ostream& os, vtkIndent indent)
@@ -23,6 +26,11 @@ void vtkVertexPressureMask::Compute(
 {
   namespace convert = palpate::convert;
   const palpate::SurfaceMesh mesh(convert::pointsOf(input), convert::trianglesOf(input));
+  if (this->Vertex < 0 || this->Vertex >= mesh.vertexCount())
+  {
+    throw std::invalid_argument("there is no vertex " + std::to_string(this->Vertex) +
+      ": the surface has " + std::to_string(mesh.vertexCount()));
+  }
   const palpate::BoundaryConditions conditions(convert::boundaryTypesOf(input, false));
   const palpate::PressureMasks masks(mesh, conditions,
     static_cast<palpate::MaskShape>(this->Mask), this->RadiusFor(mesh.meanEdgeLength()));

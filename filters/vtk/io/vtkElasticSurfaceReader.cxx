@@ -3,6 +3,7 @@
 
 #include "vtkElasticSurfaceReader.h"
 
+#include "file_checks.h"
 #include "mesh/off_file.h"
 
 #include "vtkCallbackCommand.h"
@@ -23,6 +24,7 @@
 #include "vtksys/SystemTools.hxx"
 
 #include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkElasticSurfaceReader);
 
@@ -154,10 +156,12 @@ void readFile(const std::string& path, vtkPolyData* output)
     vtksys::SystemTools::GetFilenameLastExtension(path));
   if (extension == ".vtp")
   {
+    palpate::io::requireWholeXml(path);
     readWith<vtkXMLPolyDataReader>(path, output);
   }
   else if (extension == ".stl")
   {
+    palpate::io::requireWholeStl(path);
     readWith<vtkSTLReader>(path, output);
   }
   else if (extension == ".obj")

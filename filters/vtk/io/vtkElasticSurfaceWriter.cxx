@@ -3,6 +3,8 @@
 
 #include "vtkElasticSurfaceWriter.h"
 
+#include "file_checks.h"
+
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -55,6 +57,7 @@ void writeFile(vtkPolyData* surface, const std::string& path)
   try
   {
     writeTo(surface, partial);
+    palpate::io::sealXml(partial);
     if (std::rename(partial.c_str(), path.c_str()) != 0)
     {
       throw std::runtime_error("the finished file cannot be moved to its place");

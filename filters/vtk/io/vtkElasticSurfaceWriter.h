@@ -4,8 +4,9 @@
  * @class vtkElasticSurfaceWriter
  * @brief writes a surface with its arrays to a .vtp file, whole or not at all
  *
- * XML with appended raw data, uncompressed, so that every number comes back bit by bit. The file is
- * written under another name beside its place and moved there when it is complete.
+ * XML with appended raw data, uncompressed, so that every number comes back bit by bit, and a checksum
+ * behind it, by which vtkElasticSurfaceReader knows damage. Any VTK reads it. The file is written under
+ * another name beside its place and moved there when it is complete.
  */
 
 #ifndef vtkElasticSurfaceWriter_h

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "file_checks.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+namespace palpate::io
+{
+namespace
+{
+constexpr const char* SealStart = "\n<!-- CRC-32 of all above: ";
+constexpr const char* SealEnd = " -->\n";
+constexpr std::size_t SealDigits = 8;
+
+std::uint64_t sizeOf(std::ifstream& file)
+{
+  file.clear();
+  file.seekg(0, std::ios::end);
+  return static_cast<std::uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
+}
+
+/// The last bytes of a file, at most `count`.
+std::string endOf(std::ifstream& file, std::uint64_t count)
+{
+  const std::uint64_t size = sizeOf(file);
+  count = std::min(count, size);
+  std::string text(count, ' ');
+  file.seekg(static_cast<std::streamoff>(size - count));
+  file.read(&text[0], static_cast<std::streamsize>(count));
+  return text;
+}
+
+/// CRC-32 of the first bytes of a file, as hexadecimal digits.
+std::string checksum(std::ifstream& file, std::uint64_t size)
+{
+  std::vector<char> block(1 << 20);
+  uLong sum = crc32(0, nullptr, 0);
+  file.clear();
+  file.seekg(0);
+  while (size > 0 && file)
+  {
+    file.read(block.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(size, block.size())));
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(block.data()), static_cast<uInt>(file.gcount()));
+    size -= static_cast<std::uint64_t>(file.gcount());
+  }
+  char digits[SealDigits + 1];
+  std::snprintf(digits, sizeof digits, "%08lx", sum);
+  return digits;
+}
+} // namespace
+
+void sealXml(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::string seal = SealStart + checksum(file, sizeOf(file)) + SealEnd;
+  file.close();
+  std::ofstream end(path, std::ios::binary | std::ios::app);
+  end << seal;
+  end.close();
+  if (!file || !end)
+  {
+    throw std::runtime_error("the file cannot be written whole: is the disk full?");
+  }
+}
+
+void requireWholeXml(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::string end = endOf(file, 256);
+  const std::size_t root = end.rfind("</VTKFile>");
+  if (root == std::string::npos)
+  {
+    throw std::runtime_error("the file is cut short or not a VTK file");
+  }
+  const std::size_t seal = end.find(SealStart, root);
+  if (seal == std::string::npos)
+  {
+    return;
+  }
+  const std::string stored = end.substr(seal + std::string(SealStart).size(), SealDigits);
+  if (stored != checksum(file, sizeOf(file) - (end.size() - seal)))
+  {
+    throw std::runtime_error("the file is damaged: it has changed since it was written");
+  }
+}
+
+void requireWholeStl(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  char start[84] = {};
+  file.read(start, sizeof start);
+  std::uint32_t triangles = 0; // little-endian
+  for (int i = 3; i >= 0; --i)
+  {
+    triangles = triangles << 8 | static_cast<unsigned char>(start[80 + i]);
+  }
+  const std::uint64_t size = sizeOf(file);
+  const std::uint64_t needed = 84 + 50 * static_cast<std::uint64_t>(triangles);
+  if (std::string(start, 5) != "solid" && size < needed)
+  {
+    throw std::runtime_error("the file is cut short or not an STL file: its " +
+      std::to_string(triangles) + " triangles need " + std::to_string(needed) +
+      " bytes, but there are " + std::to_string(size));
+  }
+}
+} // namespace palpate::io

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <gtest/gtest.h>
+
+#include "mesh/mesh_defects.h"
+#include "mesh/off_file.h"
+#include "mesh/repair.h"
+#include "mesh/wall_thickness.h"
+#include "support/refusals.h"
+#include "support/soups.h"
+
+namespace palpate::test {
+namespace {
+
+TEST(WithoutCgal, RepairAndOffFilesSayWhatIsMissing) {
+  const Shape shape = icosphere(0);
+  EXPECT_EQ(refusal<std::runtime_error>([&] { repairSurface(shape.points, shape.triangles); }),
+            "repair needs CGAL, which this build of Palpate was made without");
+  EXPECT_EQ(refusal<std::runtime_error>([] { readOffFile("any.off"); }),
+            "OFF files need CGAL, which this build of Palpate was made without");
+}
+
+TEST(WithoutCgal, WhatCannotBeMeasuredIsMarkedAsUnknown) {
+  const auto mesh = cubeWithSpikeThroughItsBase().mesh();
+  EXPECT_TRUE(findSelfIntersections(*mesh).empty());
+  EXPECT_EQ(largestWallRatio(*mesh).ratio, -1);
+  EXPECT_EQ(largestWallRatio(*mesh).triangle, -1);
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <gtest/gtest.h>
+
+#include "mesh/loop_subdivision.h"
+#include "support/refusals.h"
+#include "support/shapes.h"
+
+namespace palpate::test {
+namespace {
+
+TEST(WithoutOpenMesh, RefinementSaysWhatIsMissing) {
+  const Shape shape = icosphere(0);
+  EXPECT_EQ(refusal<std::runtime_error>([&] { subdivideLoop(shape.points, shape.triangles); }),
+            "refinement needs OpenMesh, which this build of Palpate was made without");
+}
+
+}  // namespace
+}  // namespace palpate::test

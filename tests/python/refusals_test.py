@@ -1,0 +1,303 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every call that cannot be answered ends in one sentence that says why."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from palpate.arrays import as_vtk
+from support.surfaces import (copy_of, cube, lower_cap, points_of, polydata, sphere, sphere_model,
+                              triangles_of)
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, sentence, call, *arguments, **options):
+        """The call raises palpate.Error with a sentence of one line that holds `sentence`."""
+        with self.assertRaises(palpate.Error) as caught:
+            call(*arguments, **options)
+        said = str(caught.exception)
+        self.assertIn(sentence, said)
+        self.assertNotIn("\n", said.strip())
+
+    def precompute_refused(self, sentence, surface, **options):
+        options = {"young": 1e4, "poisson": 0.3, "fixed": lower_cap(surface), **options}
+        self.refused(sentence, palpate.precompute, surface, **options)
+
+
+class Surfaces(Refusals):
+    def changed(self, change_points=None, change_triangles=None):
+        points, triangles = points_of(sphere(1)).copy(), triangles_of(sphere(1)).copy()
+        if change_points:
+            points = change_points(points)
+        if change_triangles:
+            triangles = change_triangles(triangles)
+        return polydata(points, triangles)
+
+    def test_non_finite_coordinates_are_named(self):
+        def spoil(points):
+            points[7, 1] = np.nan
+            return points
+        self.precompute_refused("vertex 7", self.changed(spoil))
+
+    def test_degenerate_faces_are_named(self):
+        def spoil(triangles):
+            triangles[5, 1] = triangles[5, 0]
+            return triangles
+        self.precompute_refused("triangle 5", self.changed(None, spoil))
+
+    def test_open_boundaries_are_named(self):
+        self.precompute_refused("open boundary", self.changed(None, lambda t: t[1:]))
+
+    def test_inconsistent_orientation_is_named(self):
+        def spoil(triangles):
+            triangles[3] = triangles[3, ::-1].copy()
+            return triangles
+        self.precompute_refused("orientation", self.changed(None, spoil))
+
+    def test_inward_orientation_is_named(self):
+        self.precompute_refused("inward", self.changed(None, lambda t: t[:, ::-1].copy()))
+
+    def test_duplicate_vertices_are_named(self):
+        other = points_of(sphere(1))
+        points = np.vstack([other, other])
+        triangles = triangles_of(sphere(1))
+        self.precompute_refused("the same place", polydata(points, np.vstack([triangles,
+                                                                             triangles + 42])))
+
+    def test_unused_vertices_are_named(self):
+        self.precompute_refused("vertex 42", self.changed(
+            lambda points: np.vstack([points, [(0, 0, 3.0)]])))
+
+    def test_non_manifold_edges_are_named(self):
+        def spoil(triangles):
+            a, b, c = triangles[0]
+            return np.vstack([triangles, [(a, b, 20)], [(b, a, 21)]])
+        self.precompute_refused("edge", self.changed(None, spoil))
+
+    def test_vertices_where_two_fans_meet_are_named(self):
+        points, triangles = points_of(sphere(1)), triangles_of(sphere(1))
+        second = points + (0, 0, 2.0)
+        top, bottom = int(np.argmax(points[:, 2])), int(np.argmin(points[:, 2]))
+        joined = triangles + 42
+        points = np.vstack([points, second])
+        # The sphere has a vertex or an edge at each pole; join one vertex to one.
+        points[42:] += points[top] - points[42 + bottom]
+        joined = np.where(joined == 42 + bottom, top, joined)
+        keep = np.delete(np.arange(84), 42 + bottom)
+        number = np.zeros(84, int)
+        number[keep] = np.arange(83)
+        self.precompute_refused("vertex %d" % top,
+                                polydata(points[keep], number[np.vstack([triangles, joined])]))
+
+    def test_self_intersections_are_named(self):
+        a, b = points_of(sphere(1)), points_of(sphere(1)) + (1.5, 0, 0)
+        t = triangles_of(sphere(1))
+        self.precompute_refused("intersect", polydata(np.vstack([a, b]), np.vstack([t, t + 42])))
+
+    def test_quadrilaterals_are_refused_with_the_cure(self):
+        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        surface = polydata(corners, quads)
+        self.precompute_refused("cell 0 has 4 corners: only triangles are allowed", surface,
+                                fixed=points_of(surface)[:, 2] == 0)
+
+    def test_an_empty_surface_is_refused(self):
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+        self.refused("no ", palpate.precompute, vtkPolyData(), 1e4, 0.3, fixed=[])
+
+    def test_refinement_of_an_open_surface_is_refused(self):
+        self.refused("open boundary", palpate.refine, self.changed(None, lambda t: t[1:]))
+        self.refused("levels must be 0 to 8, not 9", palpate.refine, sphere(0), 9)
+        self.refused("levels must be 0 to 8, not -1", palpate.refine, sphere(0), -1)
+
+
+class Problems(Refusals):
+    def test_materials_out_of_range_are_named(self):
+        for young in (0, -1, np.inf):
+            self.precompute_refused("Young's modulus", sphere(1), young=young)
+        for poisson in (-1, 0.51, np.inf):
+            self.precompute_refused("Poisson's ratio", sphere(1), poisson=poisson)
+
+    def test_a_missing_material_is_said(self):
+        self.precompute_refused("'YoungsModulus'", sphere(1), young=None)
+        self.precompute_refused("'PoissonRatio'", sphere(1), poisson=None)
+
+    def test_a_free_body_is_refused(self):
+        self.precompute_refused("no fixed node", sphere(1), fixed=np.zeros(42, bool))
+
+    def test_a_support_on_a_line_leaves_a_rotation_free(self):
+        surface = cube(2)
+        points = points_of(surface)
+        edge = (points[:, 0] == 0) & (points[:, 2] == 0)
+        self.precompute_refused("leave a rigid motion free (rotation about the axis", surface, fixed=edge)
+
+    def test_every_body_needs_its_own_support(self):
+        a, b = points_of(sphere(1)), points_of(sphere(1)) + (5, 0, 0)
+        t = triangles_of(sphere(1))
+        both = polydata(np.vstack([a, b]), np.vstack([t, t + 42]))
+        fixed = np.concatenate([lower_cap(sphere(1)), np.zeros(42, bool)])
+        self.precompute_refused("the body of vertex 42", both, fixed=fixed)
+
+    def test_a_body_with_no_free_node_is_refused(self):
+        self.precompute_refused("no free node", sphere(1), fixed=np.ones(42, bool))
+
+    def test_boundary_types_other_than_0_and_1_are_named(self):
+        surface = sphere(1)
+        types = lower_cap(surface).astype(float)
+        types[11] = 2
+        surface.GetPointData().AddArray(as_vtk(types, "BoundaryType", 1))
+        self.precompute_refused("node 11 must be 0 (free) or 1 (fixed)", surface, fixed=None)
+
+    def test_missing_boundary_types_are_said(self):
+        self.precompute_refused("no point array 'BoundaryType'", sphere(1), fixed=None)
+
+    def test_fixed_of_another_size_is_refused(self):
+        self.precompute_refused("fixed must hold 42 values", sphere(1), fixed=[True])
+
+    def test_options_that_do_not_exist_list_those_that_do(self):
+        for option, known in (("method", "bem"), ("precision", "double, mixed, float"),
+                              ("domain", "interior, exterior"), ("collocation", "averaged, vertex")):
+            self.precompute_refused(f"there is no {option} 'x': choose", sphere(1), **{option: "x"})
+            self.precompute_refused(known, sphere(1), **{option: "x"})
+
+    def test_tolerances_out_of_range_are_named(self):
+        for tolerance in (-1e-3, 1, np.nan):
+            self.precompute_refused("tolerance", sphere(1), tolerance=tolerance)
+
+    def test_smooth_angles_out_of_range_are_named(self):
+        for angle in (-1, 181, np.nan):
+            self.precompute_refused("angle", sphere(1), smooth_angle=angle)
+
+    def test_columns_out_of_range_are_named(self):
+        self.precompute_refused("42", sphere(1), columns=[42])
+        self.precompute_refused("-1", sphere(1), columns=[-1])
+
+
+class Contacts(Refusals):
+    def test_nodes_that_do_not_exist_are_named(self):
+        model = sphere_model(1)
+        self.refused("vertex 42", palpate.solve, model, [42], [(0, 0, 1)])
+        self.refused("vertex -1", palpate.solve, model, [-1], [(0, 0, 1)])
+
+    def test_shapes_that_do_not_fit_are_named(self):
+        model = sphere_model(1)
+        self.refused("displacements must be 2 by 3", palpate.solve, model, [1, 2], [(0, 0, 1)])
+        self.refused("free_tractions must be 42 by 3", palpate.solve, model, [], [],
+                     free_tractions=[(0, 0, 1)])
+
+    def test_values_that_are_not_finite_are_refused(self):
+        model = sphere_model(1)
+        node = int(palpate.greens_function_nodes(model)[0])
+        self.refused("finite", palpate.solve, model, [node], [(0, 0, np.nan)])
+        self.refused("finite", palpate.press, model, (0, 0, np.inf), force=(0, 0, 1))
+        self.refused("finite", palpate.press, model, (0, 0, 1), force=(0, 0, np.nan))
+        self.refused("finite", palpate.press, model, (0, 0, 1), displacement=(0, 0, np.inf))
+
+    def test_a_node_displaced_twice_is_refused(self):
+        model = sphere_model(1)
+        node = int(palpate.greens_function_nodes(model)[0])
+        self.refused(f"node {node}", palpate.solve, model, [node, node], [(0, 0, 1), (0, 0, 2)])
+
+    def test_columns_that_were_not_computed_are_named(self):
+        surface = sphere(1)
+        model = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), columns=[3])
+        self.refused("node 7", palpate.solve, model, [7], [(0, 0, 1)])
+        fixed = int(np.flatnonzero(lower_cap(surface))[0])
+        self.refused(f"node {fixed}", palpate.solve, model, [fixed], [(0, 0, 1)])
+
+    def test_press_takes_exactly_one_of_displacement_and_force(self):
+        model = sphere_model(1)
+        self.refused("either a displacement or a force", palpate.press, model, (0, 0, 1))
+        self.refused("either a displacement or a force", palpate.press, model, (0, 0, 1),
+                     displacement=(0, 0, 1), force=(0, 0, 1))
+        self.refused("three components, not 2", palpate.press, model, (0, 0), force=(0, 0, 1))
+
+    def test_masks_without_sense_are_named(self):
+        model = sphere_model(1)
+        self.refused("radius", palpate.stiffness, model, radius=-1)
+        self.refused("radius", palpate.stiffness, model, radius=np.nan)
+        self.refused("there is no mask 'x': choose one of linear, uniform, gaussian, hertzian",
+                     palpate.stiffness, model, radius=1, mask="x")
+        self.refused("not both", palpate.stiffness, model, radius=1, radius_in_edges=1)
+
+    def test_a_force_on_the_support_has_no_mask_with_a_free_node(self):
+        model = sphere_model(2)
+        self.refused("free", palpate.press, model, (0, 0, -1), force=(0, 0, 1))
+
+
+class Staleness(Refusals):
+    def test_surfaces_without_greens_functions_are_told_how_to_get_them(self):
+        self.refused("palpate precompute", palpate.stiffness, sphere(1))
+        self.refused("palpate precompute", palpate.solve, sphere(1), [], [])
+        self.refused("palpate precompute", palpate.press, sphere(1), (0, 0, 1), force=(0, 0, 1))
+
+    def test_moved_points_make_greens_functions_stale(self):
+        model = copy_of(sphere_model(1))
+        points_of(model)[3] *= 1.0001
+        self.refused("stale", palpate.stiffness, model)
+
+    def test_another_support_makes_greens_functions_stale(self):
+        model = copy_of(sphere_model(1))
+        palpate.array(model, "BoundaryType")[0] ^= 1
+        self.refused("stale", palpate.stiffness, model)
+
+    def test_another_poisson_ratio_makes_greens_functions_stale(self):
+        model = copy_of(sphere_model(1))
+        palpate.array(model, "PoissonRatio")[0] = 0.4
+        self.refused("stale", palpate.stiffness, model)
+
+    def test_other_patches_make_greens_functions_stale(self):
+        model = copy_of(sphere_model(1))
+        palpate.array(model, "SmoothPatch")[0] += 1
+        self.refused("stale", palpate.stiffness, model)
+
+    def test_refinement_by_a_stock_filter_makes_greens_functions_stale(self):
+        from vtkmodules.vtkFiltersModeling import vtkLinearSubdivisionFilter
+        finer = vtkLinearSubdivisionFilter()
+        finer.SetInputData(sphere_model(1))
+        finer.Update()
+        self.refused("compute them again", palpate.stiffness, finer.GetOutput())
+
+    def test_damaged_matrices_are_refused(self):
+        model = copy_of(sphere_model(1))
+        palpate.greens_functions(model)[5, 2] = np.nan
+        self.refused("not finite", palpate.stiffness, model)
+        model = copy_of(sphere_model(1))
+        palpate.greens_function_nodes(model)[0] = 10**6
+        self.refused("node", palpate.stiffness, model)
+
+
+class Files(Refusals):
+    def test_files_that_cannot_be_read_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            missing = Path(folder) / "none.vtp"
+            self.refused("none.vtp: there is no such file", palpate.read, missing)
+            odd = Path(folder) / "model.step"
+            odd.write_text("solid")
+            self.refused("choose .vtp, .stl, .obj, .ply or .off", palpate.read, odd)
+            for kind in ("vtp", "stl", "obj", "ply", "off"):
+                damaged = Path(folder) / f"damaged.{kind}"
+                damaged.write_bytes(bytes(range(256)) * 4)
+                self.refused(f"damaged.{kind}: ", palpate.read, damaged)
+                empty = Path(folder) / f"empty.{kind}"
+                empty.write_bytes(b"")
+                self.refused(f"empty.{kind}: ", palpate.read, empty)
+
+    def test_files_that_cannot_be_written_are_named_and_nothing_is_left(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.refused("models are written as .vtp", palpate.write, sphere(0),
+                         Path(folder) / "a.stl")
+            self.refused("cannot be written", palpate.write, sphere(0),
+                         Path(folder) / "no" / "a.vtp")
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+    def test_examples_that_do_not_exist_list_those_that_do(self):
+        self.refused("banana_seat, kidney, nodule, spatula", palpate.example, "heart")
+
+
+if __name__ == "__main__":
+    unittest.main()
