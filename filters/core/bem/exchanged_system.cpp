@@ -45,13 +45,6 @@ std::vector<ColumnBlock> columnBlocks(const BodySurface& body, const Collocation
       blocks.push_back({true, column++, -1, nodes, 1});
   }
   for (int node : wanted.patchTractions) blocks.push_back({true, column++, -1, {node}, 1});
-  // In the order of the vertices, as the panels' memory is.
-  std::stable_sort(blocks.begin(), blocks.end(), [&](const ColumnBlock& a, const ColumnBlock& b) {
-    const auto place = [&](const ColumnBlock& c) {
-      return c.vertex >= 0 ? c.vertex : body.nodes.vertex[c.nodes.front()];
-    };
-    return place(a) < place(b);
-  });
   return blocks;
 }
 
@@ -65,6 +58,9 @@ class Assembler {
         blocks_(columnBlocks(body, scheme, wanted)),
         panels_(body, scheme, tolerance),
         threads_(threads) {
+    std::stable_sort(
+        blocks_.begin(), blocks_.end(),
+        [&](const ColumnBlock& a, const ColumnBlock& b) { return place(a) < place(b); });
     system_.size = 3 * scheme.equationCount();
     system_.stride = (system_.size + kLine<Scalar> - 1) / kLine<Scalar> * kLine<Scalar>;
     system_.columns = 3 * wanted.count();
@@ -91,6 +87,12 @@ class Assembler {
   }
 
  private:
+  /// Where a block's values stand in the panels' memory, which is read in that order.
+  int place(const ColumnBlock& block) const {
+    return panels_.placeOf(block.vertex >= 0 ? block.vertex
+                                             : body_.nodes.vertex[block.nodes.front()]);
+  }
+
   Scalar* column(const ColumnBlock& block, int component) const {
     const AlignedBuffer<Scalar>& target = block.isRight ? system_.right : system_.matrix;
     return target.data() + (3 * std::size_t(block.block) + component) * system_.stride;

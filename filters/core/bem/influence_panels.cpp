@@ -65,10 +65,23 @@ InfluencePanels::InfluencePanels(const BodySurface& body, const CollocationSchem
     positionOfTriangle_[f] = static_cast<int>(triangles_.size());
     triangles_.push_back(makePanelTriangle(body, f));
   }
+  placeOfVertex_.assign(body.vertexCount(), -1);
+  placeOfNode_.assign(body.nodes.count(), -1);
+  int vertices = 0, nodes = 0;
+  for (PanelTriangle& t : triangles_)
+    for (int k = 0; k < 3; ++k) {
+      int& vertexPlace = placeOfVertex_[t.vertexIndex[k]];
+      if (vertexPlace < 0) vertexPlace = vertices++;
+      t.vertexIndex[k] = vertexPlace;
+      int& nodePlace = placeOfNode_[t.tractionNode[k]];
+      if (nodePlace < 0) nodePlace = nodes++;
+      t.tractionNode[k] = nodePlace;
+    }
 }
 
 InfluencePanels::Workspace::Workspace(const InfluencePanels& panels)
-    : h_(std::size_t(9 * kLanes) * panels.body_.vertexCount()),
+    : panels_(panels),
+      h_(std::size_t(9 * kLanes) * panels.body_.vertexCount()),
       g_(std::size_t(6 * kLanes) * panels.body_.nodes.count()),
       pointH_(h_.size()),
       pointG_(g_.size()),
@@ -77,7 +90,23 @@ InfluencePanels::Workspace::Workspace(const InfluencePanels& panels)
   std::memset(pointG_.data(), 0, pointG_.bytes());
 }
 
+/// The rows of a panel whose equations are each taken at one point: nothing to average.
+/// @return false if they are not.
+bool InfluencePanels::computeAtPoints(int panel, Workspace& work) const {
+  std::vector<int> points;
+  for (int lane = 0; lane < laneCount(panel); ++lane) {
+    const auto& terms = scheme_.equations[panel * kLanes + lane].terms;
+    if (terms.size() != 1) return false;
+    points.push_back(terms[0].point);
+  }
+  std::memset(work.h_.data(), 0, work.h_.bytes());
+  std::memset(work.g_.data(), 0, work.g_.bytes());
+  integratePoints(points, work, work.h_.data(), work.g_.data());
+  return true;
+}
+
 void InfluencePanels::compute(int panel, Workspace& work) const {
+  if (computeAtPoints(panel, work)) return;
   // The points of the panel's equations, once each, neighbours together.
   std::vector<int> points;
   for (int lane = 0; lane < laneCount(panel); ++lane)
@@ -169,7 +198,7 @@ void InfluencePanels::closeByTranslation(const std::vector<int>& points, double*
   for (std::size_t lane = 0; lane < points.size(); ++lane) {
     const CollocationPoint::Own& own = scheme_.points[points[lane]].own.front();
     for (int k = 0; k < 3; ++k) {
-      const std::size_t v = body_.triangles(k, own.triangle);
+      const std::size_t v = placeOfVertex_[body_.triangles(k, own.triangle)];
       for (int c = 0; c < 9; ++c)
         h[(9 * v + c) * kLanes + lane] -= own.barycentric[k] * sum[c * kLanes + lane];
     }

@@ -34,16 +34,19 @@ class InfluencePanels {
     explicit Workspace(const InfluencePanels& panels);
     /// Entry (i, j) of the 3 by 3 block of H for a vertex: kLanes values, one per equation.
     const double* h(int vertex, int i, int j) const {
-      return h_.data() + (9 * std::size_t(vertex) + 3 * i + j) * kLanes;
+      const std::size_t place = panels_.placeOfVertex_[vertex];
+      return h_.data() + (9 * place + 3 * i + j) * kLanes;
     }
     /// Entry (i, j) of the block of G for a traction node; the block is symmetric.
     const double* g(int node, int i, int j) const {
       static constexpr int index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-      return g_.data() + (6 * std::size_t(node) + index[i][j]) * kLanes;
+      const std::size_t place = panels_.placeOfNode_[node];
+      return g_.data() + (6 * place + index[i][j]) * kLanes;
     }
 
    private:
     friend class InfluencePanels;
+    const InfluencePanels& panels_;
     AlignedBuffer<double> h_, g_;            // of the equations
     AlignedBuffer<double> pointH_, pointG_;  // at kLanes points
     std::vector<int> ownIndex_;
@@ -57,12 +60,16 @@ class InfluencePanels {
   /// A triangle of the body as the integration sees it.
   const PanelTriangle& triangle(int f) const { return triangles_[positionOfTriangle_[f]]; }
 
+  /// Place of a vertex's values in a workspace among those of all vertices.
+  int placeOf(int vertex) const { return placeOfVertex_[vertex]; }
+
   /// Pairs of a group of kLanes points and a triangle integrated so far, and how many of them in
   /// closed form.
   long pairCount() const { return pairCount_; }
   long closedFormCount() const { return closedFormCount_; }
 
  private:
+  bool computeAtPoints(int panel, Workspace& work) const;
   void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
   void markOwnTriangles(const std::vector<int>& points, Workspace& work) const;
   void closeByTranslation(const std::vector<int>& points, double* h) const;
@@ -71,6 +78,7 @@ class InfluencePanels {
   const CollocationScheme& scheme_;
   std::vector<PanelTriangle> triangles_;  // in spatial order
   std::vector<int> positionOfTriangle_;
+  std::vector<int> placeOfVertex_, placeOfNode_;  // in the order in which the triangles meet them
   PanelRule nearRule_, farRule_;
   mutable std::atomic<long> closedFormCount_{0}, pairCount_{0};
 };

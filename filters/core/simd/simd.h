@@ -31,6 +31,15 @@ inline Batch loadAsDouble(const float* source) {
 #endif
 }
 
+/// Asks for a cache line ahead of its use; any address will do.
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
+}
+
 /// 1/sqrt(x) to double precision for normal floats' range of x (1e-37 .. 1e37).
 inline Batch inverseSquareRoot(const Batch& x) {
 #if defined(__AVX512F__)
