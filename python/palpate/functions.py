@@ -320,7 +320,8 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     -------
     vtkPolyData
         The model with `Stiffness` (n by 9, the matrix row by row, N/m), `StiffnessNorm` (n,
-        Frobenius), `StiffnessAsymmetry` and `HapticRatio` (n).
+        Frobenius), `StiffnessAsymmetry` and `HapticRatio` (n). Where a vertex's mask needs columns that
+        were not computed, they are NaN.
 
     Raises
     ------

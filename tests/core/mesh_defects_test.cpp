@@ -23,7 +23,8 @@ std::vector<MeshDefect> defectsOf(const Shape& shape) {
 
 /// Expects the soup's first defect to be this one, and SurfaceMesh to refuse it in these words.
 void expectFirstDefect(const Shape& shape, MeshDefectKind kind, int index,
-                       const std::string& sentence) {
+                       const std::string& text) {
+  const std::string sentence = std::string(nameOf(kind)) + ": " + text;
   const std::vector<MeshDefect> defects = defectsOf(shape);
   ASSERT_FALSE(defects.empty()) << sentence;
   EXPECT_EQ(defects.front().kind, kind);
@@ -39,6 +40,13 @@ TEST(MeshDefects, SoundSurfacesHaveNone) {
     EXPECT_TRUE(defectsOf(shape).empty());
     EXPECT_TRUE(findOrientationDefects(findShells(shape.points, shape.triangles)).empty());
   }
+}
+
+TEST(MeshDefects, GoByTheirUsualNames) {
+  EXPECT_STREQ(nameOf(MeshDefectKind::OpenBoundary), "open boundary");
+  EXPECT_STREQ(nameOf(MeshDefectKind::NonManifoldEdge), "non-manifold edge");
+  EXPECT_STREQ(nameOf(MeshDefectKind::InconsistentOrientation), "inconsistent orientation");
+  EXPECT_STREQ(nameOf(MeshDefectKind::SelfIntersection), "self-intersection");
 }
 
 TEST(MeshDefects, ASurfaceWithoutTrianglesIsRefused) {
@@ -174,7 +182,8 @@ TEST(MeshDefects, ANonManifoldVertexIsNamed) {
 
 /// Expects the shells of an otherwise sound surface to have just this defect.
 void expectOrientationDefect(const Shape& shape, MeshDefectKind kind, int index,
-                             const std::string& sentence) {
+                             const std::string& text) {
+  const std::string sentence = std::string(nameOf(kind)) + ": " + text;
   ASSERT_TRUE(defectsOf(shape).empty());
   const auto defects = findOrientationDefects(findShells(shape.points, shape.triangles));
   ASSERT_EQ(defects.size(), 1u);

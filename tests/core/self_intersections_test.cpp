@@ -31,7 +31,7 @@ TEST(SelfIntersections, ANeedleThroughAFaceNamesTheTwoTriangles) {
   ASSERT_EQ(defects.size(), 3u);  // the needle's three sides
   for (const MeshDefect& defect : defects) {
     EXPECT_EQ(defect.kind, MeshDefectKind::SelfIntersection);
-    EXPECT_TRUE(contains(defect.sentence, "triangles "));
+    EXPECT_TRUE(contains(defect.sentence, "self-intersection: triangles "));
     EXPECT_TRUE(contains(defect.sentence, " cut through each other (3 such pairs)"));
     EXPECT_TRUE(contains(defect.sentence, "triangles 3 and ")) << defect.index;
     EXPECT_EQ(defect.index, 3);

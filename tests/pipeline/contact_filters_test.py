@@ -84,6 +84,24 @@ class Stiffness(unittest.TestCase):
             compliance = xi[3 * node:3 * node + 3, 3 * column:3 * column + 3] / area[node]
             self.assertLess(np.abs(k[node] @ compliance - np.eye(3)).max(), 1e-11)
 
+    def test_of_some_columns_is_that_of_all_where_it_can_be_and_no_number_elsewhere(self):
+        surface, whole = sphere(2), sphere_model(2)
+        top = int(np.argmax(points_of(surface)[:, 2]))
+        near = np.flatnonzero(np.linalg.norm(points_of(surface) - points_of(surface)[top], axis=1) < 0.8)
+        some = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), columns=near)
+        a, b = (palpate.array(palpate.stiffness(m, radius=0.5, rigid_stiffness=1e5), "StiffnessNorm")
+                for m in (some, whole))
+        served = np.isfinite(a)
+        self.assertTrue(served[top])
+        self.assertTrue(0 < (~served).sum() < 162 - near.size / 2)
+        self.assertLess(np.abs(a[served] / b[served] - 1).max(), 1e-10)
+        forces = [palpate.array(palpate.press(model, points_of(surface)[top], radius=0.5,
+                                              displacement=(1e-3, 0, -1e-2)), "ContactForce")[0]
+                  for model in (some, whole)]
+        self.assertLess(np.abs(forces[0] - forces[1]).max(), 1e-9 * np.abs(forces[1]).max())
+        with self.assertRaisesRegex(palpate.Error, "were not computed"):
+            palpate.press(some, (1, 0, 0), force=(1, 0, 0), radius=0.5)
+
     def test_reports_asymmetry_and_haptic_ratio(self):
         field = palpate.stiffness(sphere_model(2))
         asymmetry, ratio = (palpate.array(field, n) for n in ("StiffnessAsymmetry", "HapticRatio"))

@@ -71,7 +71,6 @@ class Stiffness(unittest.TestCase):
             model = palpate.precompute(surface, None, None, columns=columns)
             single.append(np.linalg.norm(stiffness_at(model, top)))
             masked.append(np.linalg.norm(stiffness_at(model, top, radius=radius)))
-        print("single", single, "masked", masked)
         self.assertGreater(single[0], 5 * single[2])
         self.assertLess(abs(masked[2] / masked[0] - 1), 0.2)
         self.assertLess(abs(masked[3] / masked[2] - 1), 0.03)

@@ -10,6 +10,7 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_vtk
+from palpate.errors import run
 from support.surfaces import (copy_of, cube, lower_cap, points_of, polydata, sphere, sphere_model,
                               triangles_of)
 
@@ -41,42 +42,42 @@ class Surfaces(Refusals):
         def spoil(points):
             points[7, 1] = np.nan
             return points
-        self.precompute_refused("vertex 7", self.changed(spoil))
+        self.precompute_refused("non-finite coordinate: vertex 7", self.changed(spoil))
 
     def test_degenerate_faces_are_named(self):
         def spoil(triangles):
             triangles[5, 1] = triangles[5, 0]
             return triangles
-        self.precompute_refused("triangle 5", self.changed(None, spoil))
+        self.precompute_refused("degenerate triangle: triangle 5", self.changed(None, spoil))
 
     def test_open_boundaries_are_named(self):
-        self.precompute_refused("open boundary", self.changed(None, lambda t: t[1:]))
+        self.precompute_refused("open boundary: edge (", self.changed(None, lambda t: t[1:]))
 
     def test_inconsistent_orientation_is_named(self):
         def spoil(triangles):
             triangles[3] = triangles[3, ::-1].copy()
             return triangles
-        self.precompute_refused("orientation", self.changed(None, spoil))
+        self.precompute_refused("inconsistent orientation: ", self.changed(None, spoil))
 
     def test_inward_orientation_is_named(self):
-        self.precompute_refused("inward", self.changed(None, lambda t: t[:, ::-1].copy()))
+        self.precompute_refused("inward orientation: ", self.changed(None, lambda t: t[:, ::-1].copy()))
 
     def test_duplicate_vertices_are_named(self):
         other = points_of(sphere(1))
         points = np.vstack([other, other])
         triangles = triangles_of(sphere(1))
-        self.precompute_refused("the same place", polydata(points, np.vstack([triangles,
+        self.precompute_refused("duplicate vertex: vertex 42 lies on vertex 0", polydata(points, np.vstack([triangles,
                                                                              triangles + 42])))
 
     def test_unused_vertices_are_named(self):
-        self.precompute_refused("vertex 42", self.changed(
+        self.precompute_refused("unused vertex: vertex 42", self.changed(
             lambda points: np.vstack([points, [(0, 0, 3.0)]])))
 
     def test_non_manifold_edges_are_named(self):
         def spoil(triangles):
-            a, b, c = triangles[0]
-            return np.vstack([triangles, [(a, b, 20)], [(b, a, 21)]])
-        self.precompute_refused("edge", self.changed(None, spoil))
+            fins = [(triangles[0, 0], triangles[0, 1], other) for other in (30, 31)]
+            return np.vstack([triangles, fins])
+        self.precompute_refused("non-manifold edge: edge (", self.changed(None, spoil))
 
     def test_vertices_where_two_fans_meet_are_named(self):
         points, triangles = points_of(sphere(1)), triangles_of(sphere(1))
@@ -90,13 +91,13 @@ class Surfaces(Refusals):
         keep = np.delete(np.arange(84), 42 + bottom)
         number = np.zeros(84, int)
         number[keep] = np.arange(83)
-        self.precompute_refused("vertex %d" % top,
+        self.precompute_refused("non-manifold vertex: at vertex %d" % top,
                                 polydata(points[keep], number[np.vstack([triangles, joined])]))
 
     def test_self_intersections_are_named(self):
         a, b = points_of(sphere(1)), points_of(sphere(1)) + (1.5, 0, 0)
         t = triangles_of(sphere(1))
-        self.precompute_refused("intersect", polydata(np.vstack([a, b]), np.vstack([t, t + 42])))
+        self.precompute_refused("self-intersection: triangles ", polydata(np.vstack([a, b]), np.vstack([t, t + 42])))
 
     def test_quadrilaterals_are_refused_with_the_cure(self):
         corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -224,9 +225,12 @@ class Contacts(Refusals):
                      palpate.stiffness, model, radius=1, mask="x")
         self.refused("not both", palpate.stiffness, model, radius=1, radius_in_edges=1)
 
-    def test_a_force_on_the_support_has_no_mask_with_a_free_node(self):
+    def test_masks_at_fixed_vertices_have_no_free_node(self):
         model = sphere_model(2)
-        self.refused("free", palpate.press, model, (0, 0, -1), force=(0, 0, 1))
+        mask = palpate.vtkVertexPressureMask()
+        mask.SetInputData(model)
+        mask.SetVertex(int(np.argmin(points_of(model)[:, 2])))
+        self.refused("free", run, mask)
 
 
 class Staleness(Refusals):

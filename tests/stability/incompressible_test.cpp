@@ -29,15 +29,17 @@ TEST(NearlyIncompressible, ConditionAndCompliancesStayContinuousUpToOneHalf) {
     const Eigen::MatrixXd matrix = Eigen::Map<const Eigen::MatrixXd>(
         result.matrix.data(), 3 * model.mesh().vertexCount(), 3 * result.info.columnNodes.size());
     ASSERT_TRUE(matrix.allFinite());
-    if (last.size() > 0)  // the exact compliance changes by about as much as nu does
+    // The exact compliance changes by about as much as nu does.
+    if (last.size() > 0) {
       EXPECT_LT((matrix - last).norm() / last.norm(), 20 * (nu - lastNu) + 1e-9) << nu;
+    }
     last = matrix;
     lastNu = nu;
   }
 }
 
-/// Traction error, in the mean over the surface, of a sphere whose vertices are all moved as the field
-/// of a point force outside moves them: the support by given values, the rest by contacts.
+/// Traction error, in the mean over the surface, of a sphere whose vertices are all moved as the
+/// field of a point force outside moves them: the support by given values, the rest by contacts.
 double constrainedTractionError(double nu) {
   const ElasticModel model = makeModel(icosphere(3), cap, 1, nu);
   const auto greens = computeGreens(model, rawWithAllColumns(model));
@@ -61,7 +63,6 @@ TEST(NearlyIncompressible, WhollyConstrainedBodiesKeepTheirPressureOrAreRefused)
   EXPECT_LT(compressible, 0.02);
   for (const double nu : {0.45, 0.49, 0.499, 0.4999}) {
     const double error = constrainedTractionError(nu);
-    printf("nu %g error %g\n", nu, error);
     EXPECT_LT(error, 2 * compressible) << nu;
   }
   // At one half a moved boundary says nothing of the pressure inside.

@@ -24,7 +24,9 @@ PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
         "must sum to 1");
   std::map<int, double> density;
   for (int k = 0; k < 3; ++k) {
+    if (point.barycentric[k] == 0) continue;
     const VertexMask& mask = stiffness_->mask(mesh.triangles()(k, point.triangle));
+    stiffness_->greens().requireColumns(nodeList(mask.nodes));
     for (std::size_t j = 0; j < mask.nodes.size(); ++j)
       density[mask.nodes[j]] += point.barycentric[k] * mask.density[j];
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -36,6 +37,15 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
           (compliance - compliance.transpose()).norm() / compliance.norm()};
 }
 
+namespace {
+
+bool hasColumns(const GreensFunctions& greens, const VertexMask& mask) {
+  return std::all_of(mask.nodes.begin(), mask.nodes.end(),
+                     [&](int node) { return greens.hasColumn(node); });
+}
+
+}  // namespace
+
 SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape,
                                    double radius, double rigidStiffness,
@@ -51,26 +61,36 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   const int n = mesh_->vertexCount();
   const Progress progress(callback);
   const PressureMasks masks(*mesh_, greens_->info().conditions, shape, radius);
-  elastic_.resize(n);
+  elastic_.assign(n, Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   masks_.resize(n);
   hapticRatio_.assign(n, 1);
   asymmetry_.assign(n, 0);
+  served_.assign(n, true);
   double largest = 0;
+  int servedCount = 0, lastUnserved = -1;
   for (int v = 0; v < n; ++v) {
     if (v % 64 == 0) progress.report(double(v) / n, "stiffness");
     if (greens_->isFixed(v)) continue;
     masks_[v] = masks.at(v);
+    if (!hasColumns(*greens_, masks_[v])) {
+      served_[v] = false;
+      lastUnserved = v;
+      continue;
+    }
+    ++servedCount;
     const VertexStiffness result = maskedVertexStiffness(*greens_, v, masks_[v]);
     elastic_[v] = result.stiffness;
     asymmetry_[v] = result.asymmetry;
     largest = std::max(largest, result.stiffness.norm());
   }
+  if (servedCount == 0 && lastUnserved >= 0)
+    greens_->requireColumns(nodeList(masks_[lastUnserved].nodes));
   // |K^R|_F = sqrt(3) k_Rigid.
   if (rigidStiffness_ == 0) rigidStiffness_ = largest / std::sqrt(3.0);
   for (int v = 0; v < n; ++v) {
     if (greens_->isFixed(v))
       elastic_[v] = rigidStiffness_ * Eigen::Matrix3d::Identity();
-    else
+    else if (served_[v])
       hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
   }
   progress.report(1, "stiffness");
@@ -78,17 +98,19 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
 
 Eigen::Matrix3d SurfaceStiffness::elasticAt(int triangle,
                                             const Eigen::Vector3d& barycentric) const noexcept {
-  const Eigen::Vector3i t = mesh_->triangles().col(triangle);
-  return barycentric[0] * elastic_[t[0]] + barycentric[1] * elastic_[t[1]] +
-         barycentric[2] * elastic_[t[2]];
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (barycentric[k] != 0)
+      stiffness += barycentric[k] * elastic_[mesh_->triangles()(k, triangle)];
+  return stiffness;
 }
 
 Eigen::Matrix3d SurfaceStiffness::hapticAt(int triangle,
                                            const Eigen::Vector3d& barycentric) const noexcept {
-  const Eigen::Vector3i t = mesh_->triangles().col(triangle);
-  return barycentric[0] * hapticRatio_[t[0]] * elastic_[t[0]] +
-         barycentric[1] * hapticRatio_[t[1]] * elastic_[t[1]] +
-         barycentric[2] * hapticRatio_[t[2]] * elastic_[t[2]];
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (barycentric[k] != 0) stiffness += barycentric[k] * haptic(mesh_->triangles()(k, triangle));
+  return stiffness;
 }
 
 }  // namespace palpate

@@ -28,13 +28,13 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
                                       const VertexMask& mask);
 
 /// Stiffnesses of all vertices, and by interpolation of every point of the surface ([JP01] sections
-/// 6.2-6.4).
+/// 6.2-6.4). Where columns that a vertex's mask needs were not computed, its stiffness is NaN.
 class SurfaceStiffness {
  public:
   /// @param rigidStiffness  k_Rigid of eq. 33 (N/m), the stiffness of fixed vertices and the most
   /// that
   ///                        the haptic stiffness shows; 0 for the stiffest elastic vertex.
-  /// @throws as maskedVertexStiffness; std::invalid_argument for a rigid stiffness that is negative
+  /// @throws as maskedVertexStiffness if no vertex has its columns; std::invalid_argument for a rigid stiffness that is negative
   ///         or not finite, or for another surface's Green's functions; Aborted.
   SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape, double radius,
@@ -44,6 +44,8 @@ class SurfaceStiffness {
   const std::shared_ptr<const GreensFunctions>& sharedGreens() const { return greens_; }
   const SurfaceMesh& mesh() const { return *mesh_; }
 
+  /// Whether the columns of the vertex's mask were computed, or it is fixed.
+  bool isServed(int vertex) const { return served_[vertex]; }
   /// K_i: K^E where the vertex is free, k_Rigid times identity where it is fixed (eq. 32-33). N/m.
   const Eigen::Matrix3d& elastic(int vertex) const { return elastic_[vertex]; }
   /// eta_i = min(1, |K^R| / |K^E_i|), 1 where fixed (section 6.4).
@@ -56,7 +58,7 @@ class SurfaceStiffness {
   double asymmetry(int vertex) const { return asymmetry_[vertex]; }
   double rigidStiffness() const { return rigidStiffness_; }
 
-  /// K(x) of eq. 34 at a point of a triangle.
+  /// K(x) of eq. 34 at a point of a triangle; vertices without weight need not be served.
   /// @param barycentric  of the point, sum 1.
   Eigen::Matrix3d elasticAt(int triangle, const Eigen::Vector3d& barycentric) const noexcept;
   /// K^H(x), with |K^H(x)| <= |K^R|.
@@ -69,6 +71,7 @@ class SurfaceStiffness {
   std::vector<Eigen::Matrix3d> elastic_;
   std::vector<double> hapticRatio_, asymmetry_;
   std::vector<VertexMask> masks_;
+  std::vector<bool> served_;
 };
 
 }  // namespace palpate

@@ -31,8 +31,8 @@ std::string sentence(const Parts&... parts) {
 class DefectList {
  public:
   explicit DefectList(std::size_t largestCount) : largestCount_(largestCount) {}
-  void add(MeshDefectKind kind, int index, std::string text) {
-    if (defects_.size() < largestCount_) defects_.push_back({kind, index, std::move(text)});
+  void add(MeshDefectKind kind, int index, const std::string& text) {
+    if (defects_.size() < largestCount_) defects_.push_back(describeDefect(kind, index, text));
   }
   bool empty() const { return defects_.empty(); }
   std::vector<MeshDefect> take() { return std::move(defects_); }
@@ -162,6 +162,44 @@ void findVertexDefects(int vertexCount, const Eigen::Matrix3Xi& triangles, Defec
 }
 
 }  // namespace
+
+const char* nameOf(MeshDefectKind kind) {
+  switch (kind) {
+    case MeshDefectKind::Empty:
+      return "empty surface";
+    case MeshDefectKind::NonFiniteCoordinate:
+      return "non-finite coordinate";
+    case MeshDefectKind::IndexOutOfRange:
+      return "index out of range";
+    case MeshDefectKind::DegenerateTriangle:
+      return "degenerate triangle";
+    case MeshDefectKind::DuplicateTriangle:
+      return "duplicate triangle";
+    case MeshDefectKind::UnusedVertex:
+      return "unused vertex";
+    case MeshDefectKind::DuplicateVertex:
+      return "duplicate vertex";
+    case MeshDefectKind::NonManifoldEdge:
+      return "non-manifold edge";
+    case MeshDefectKind::OpenBoundary:
+      return "open boundary";
+    case MeshDefectKind::InconsistentOrientation:
+      return "inconsistent orientation";
+    case MeshDefectKind::NonManifoldVertex:
+      return "non-manifold vertex";
+    case MeshDefectKind::InwardOrientation:
+      return "inward orientation";
+    case MeshDefectKind::NoVolume:
+      return "no volume";
+    case MeshDefectKind::SelfIntersection:
+      return "self-intersection";
+  }
+  return "defect";
+}
+
+MeshDefect describeDefect(MeshDefectKind kind, int index, const std::string& text) {
+  return {kind, index, std::string(nameOf(kind)) + ": " + text};
+}
 
 bool isUsablePoint(const Eigen::Vector3d& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() <= kLargestCoordinate;

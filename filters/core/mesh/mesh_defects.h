@@ -35,6 +35,12 @@ struct MeshDefect {
   std::string sentence;  ///< for the user: names the index and the value
 };
 
+/// The usual name of a kind of defect, such as "open boundary".
+const char* nameOf(MeshDefectKind kind);
+
+/// A defect with a sentence that begins with the name of its kind.
+MeshDefect describeDefect(MeshDefectKind kind, int index, const std::string& text);
+
 /// Vertices closer than this, as a part of the bounding box's diagonal, are duplicates.
 constexpr double kDuplicateDistance = 1e-9;
 

@@ -377,7 +377,8 @@ RepairedSurface repairSurface(const Eigen::Matrix3Xd& points, const Eigen::Matri
   } catch (const std::invalid_argument& reason) {
     throw std::invalid_argument(refusal(reason.what(), changes));
   } catch (const CGAL::Failure_exception& failure) {
-    throw std::runtime_error(refusal("CGAL gave up (" + failure.expression() + " " + failure.message() + ")", changes));
+    throw std::runtime_error(
+        refusal("CGAL gave up (" + failure.expression() + " " + failure.message() + ")", changes));
   }
 }
 

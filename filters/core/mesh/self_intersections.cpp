@@ -26,7 +26,8 @@ std::vector<MeshDefect> findSelfIntersections(const SurfaceMesh& mesh, std::size
     std::ostringstream text;
     text << "triangles " << a.idx() << " and " << b.idx() << " cut through each other ("
          << pairs.size() << (pairs.size() == 1 ? " such pair)" : " such pairs)");
-    defects.push_back({MeshDefectKind::SelfIntersection, static_cast<int>(a.idx()), text.str()});
+    defects.push_back(
+        describeDefect(MeshDefectKind::SelfIntersection, static_cast<int>(a.idx()), text.str()));
   }
   return defects;
 }

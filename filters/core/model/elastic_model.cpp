@@ -28,7 +28,7 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
     text << "there are " << smoothPatches_.size() << " smooth patch numbers for "
          << mesh_->triangleCount() << " triangles";
   else if (conditions_.freeNodes().empty())
-    text << "no node is free: a model needs a free node that can be touched";
+    text << "the model has no free node: there is nothing that could be touched";
   if (!text.str().empty()) throw std::invalid_argument(text.str());
 
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
@@ -71,7 +71,7 @@ std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRa
   if (wallRatio > veryThinFrom)
     warn("the wall at triangle ", wall.triangle,
          " is thinner than the edges there (edge over thickness ", wallRatio,
-         "): it is too stiff in bending; refine, or use solid or shell elements");
+         "): it is too stiff in bending; refine until edges are shorter than the wall is thick");
   else if (wallRatio > thinFrom)
     warn("the wall at triangle ", wall.triangle, " is thin for the mesh (edge over thickness ",
          wallRatio, "): if it bends, compare with a finer mesh");

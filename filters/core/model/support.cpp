@@ -67,8 +67,16 @@ void requireSupport(const SurfaceMesh& mesh, const BoundaryConditions& condition
     const RigidMotion motion = leastResistedMotion(points, directions, box.diagonal().norm());
     if (motion.resistance >= kSmallestResistance) continue;
     std::ostringstream text;
-    text << "the " << fixed.size() << " fixed nodes of the body of vertex " << all.front()
-         << " leave a rigid motion free (" << motion.describe()
+    if (fixed.empty())
+      text << "the body of vertex " << all.front()
+           << " has no fixed node, which leaves a rigid motion";
+    else if (fixed.size() == 1)
+      text << "the only fixed node of the body of vertex " << all.front()
+           << " leaves a rigid motion";
+    else
+      text << "the " << fixed.size() << " fixed nodes of the body of vertex " << all.front()
+           << " leave a rigid motion";
+    text << " free (" << motion.describe()
          << "): fix at least three nodes that are not on one line";
     throw std::invalid_argument(text.str());
   }

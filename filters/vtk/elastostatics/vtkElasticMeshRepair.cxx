@@ -19,14 +19,16 @@ void vtkElasticMeshRepair::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
 {
   namespace convert = palpate::convert;
   const Eigen::Matrix3Xi triangles = convert::triangulatedCellsOf(input);
-  const bool onlyTriangles = triangles.cols() == input->GetNumberOfCells();
+  const bool onlyTriangles = triangles.cols() == input->GetNumberOfCells() &&
+    input->GetPolys()->IsHomogeneous() == 3;
+  output->GetFieldData()->RemoveArray(palpate::arrays::RepairChanges); // of an earlier repair
   const palpate::RepairedSurface repaired = palpate::repairSurface(convert::pointsOf(input),
     triangles,
     [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
   std::vector<std::string> changes = repaired.changes;
   if (!onlyTriangles)
   {
-    changes.insert(changes.begin(), "cut polygons and strips into triangles");
+    changes.insert(changes.begin(), "cut polygons and strips into triangles, dropped other cells");
   }
   if (changes.empty())
   {
