@@ -2,12 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One call for each thing that the filters do."""
 
-import sys
 import warnings
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
+from .arguments import (
+    COLLOCATIONS,
+    DOMAINS,
+    PRECISIONS,
+    choice,
+    progress_callback,
+    set_mask,
+    vector,
+    vectors,
+)
 from .arrays import array, as_ids, as_vtk
 from .errors import Error, ModelWarning, run
 from .PalpateElastostatics import (
@@ -21,43 +30,6 @@ from .PalpateElastostatics import (
 )
 
 __all__ = ["precompute", "press", "refine", "repair", "solve", "stiffness"]
-
-_PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
-_COLLOCATIONS = {"averaged": 0, "vertex": 1}
-_DOMAINS = {"interior": 0, "exterior": 1}
-_MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3}
-
-
-def _choice(value, choices, what):
-    if value not in choices:
-        raise Error(f"there is no {what} '{value}': choose one of {', '.join(choices)}")
-    return choices[value]
-
-
-def _vector(value, what):
-    vector = np.asarray(value, dtype=float).ravel()
-    if vector.size != 3:
-        raise Error(f"{what} must have three components, not {vector.size}")
-    return vector
-
-
-def _vectors(values, count, what):
-    vectors = np.asarray(values, dtype=float)
-    if vectors.size != 3 * count or (vectors.ndim > 1 and vectors.shape[-1] != 3):
-        raise Error(f"{what} must be {count} by 3, not {'x'.join(map(str, vectors.shape))}")
-    return vectors.reshape(count, 3)
-
-
-def _bar(fraction, stage):
-    width = 30
-    done = int(round(width * fraction))
-    print(f"\r{stage:10s} [{'#' * done}{'.' * (width - done)}] {100 * fraction:3.0f} %",
-          end="\n" if fraction >= 1 else "", file=sys.stderr, flush=True)
-
-
-def _progress(progress):
-    return _bar if progress is True else progress or None
-
 
 def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
                tolerance=None, columns=None, domain="interior", reciprocal=True,
@@ -149,9 +121,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
 
     bem = vtkBoundaryElementGreensFunctions()
     bem.SetInputData(run(conditions))
-    bem.SetPrecision(_choice(precision, _PRECISIONS, "precision"))
-    bem.SetCollocation(_choice(collocation, _COLLOCATIONS, "collocation"))
-    bem.SetDomain(_choice(domain, _DOMAINS, "domain"))
+    bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
+    bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
+    bem.SetDomain(choice(domain, DOMAINS, "domain"))
     bem.SetReciprocal(bool(reciprocal))
     bem.SetSmoothAngle(smooth_angle)
     bem.SetPatchColumns(bool(patch_columns))
@@ -160,7 +132,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         bem.SetTolerance(tolerance)
     if columns is not None:
         bem.SetColumnNodes(as_ids(columns, "columns"))
-    model = run(bem, _progress(progress))
+    model = run(bem, progress_callback(progress))
     if model.GetFieldData().HasArray("Warnings"):
         for sentence in array(model, "Warnings"):
             warnings.warn(sentence, ModelWarning, stacklevel=2)
@@ -209,11 +181,11 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     """
     count = model.GetNumberOfPoints()
     nodes = np.asarray(nodes, dtype=np.int64).ravel()
-    values = _vectors(displacements, nodes.size, "displacements")
+    values = vectors(displacements, nodes.size, "displacements")
     types = np.ones(nodes.size)
     tractions = np.zeros_like(values)
     if free_tractions is not None:
-        given = _vectors(free_tractions, count, "free_tractions")
+        given = vectors(free_tractions, count, "free_tractions")
         kinds = model.GetPointData().GetArray("BoundaryType")
         loaded = np.array([i for i in np.flatnonzero(given.any(axis=1) | ~np.isfinite(given).all(axis=1))
                            if kinds is not None and kinds.GetComponent(i, 0) == 0
@@ -231,7 +203,7 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     surface = vtkPolyData()
     surface.ShallowCopy(model)
     if face_tractions is not None:
-        loads = _vectors(face_tractions, model.GetNumberOfCells(), "face_tractions")
+        loads = vectors(face_tractions, model.GetNumberOfCells(), "face_tractions")
         surface.GetCellData().AddArray(as_vtk(loads, "TriangleTraction", 3))
         solver.SetTriangleTractionArrayName("TriangleTraction")
     solver.SetInputData(surface)
@@ -287,13 +259,13 @@ def press(model, point, displacement=None, force=None, radius=None, mask="linear
         raise Error("give either a displacement or a force")
     contact = vtkPointContact()
     contact.SetInputData(model)
-    contact.SetPoint(*_vector(point, "point"))
+    contact.SetPoint(*vector(point, "point"))
     if displacement is not None:
-        contact.SetDisplacement(*_vector(displacement, "displacement"))
+        contact.SetDisplacement(*vector(displacement, "displacement"))
     else:
-        contact.SetForce(*_vector(force, "force"))
+        contact.SetForce(*vector(force, "force"))
     contact.SetRigidStiffness(rigid_stiffness)
-    _set_mask(contact, radius, radius_in_edges, mask)
+    set_mask(contact, radius, radius_in_edges, mask)
     return run(contact)
 
 
@@ -339,17 +311,8 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     algorithm = vtkSurfaceStiffness()
     algorithm.SetInputData(model)
     algorithm.SetRigidStiffness(rigid_stiffness)
-    _set_mask(algorithm, radius, radius_in_edges, mask)
-    return run(algorithm, _progress(progress))
-
-
-def _set_mask(algorithm, radius, radius_in_edges, mask):
-    if radius is not None and radius_in_edges is not None:
-        raise Error("give radius or radius_in_edges, not both")
-    algorithm.SetMask(_choice(mask, _MASKS, "mask"))
-    algorithm.SetRadiusInEdgeLengths(radius_in_edges is not None)
-    given = radius if radius_in_edges is None else radius_in_edges
-    algorithm.SetRadius(0.0 if given is None else given)
+    set_mask(algorithm, radius, radius_in_edges, mask)
+    return run(algorithm, progress_callback(progress))
 
 
 def refine(surface, levels=1):

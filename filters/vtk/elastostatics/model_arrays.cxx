@@ -68,6 +68,34 @@ void addMatrix(vtkPolyData* surface, const char* name, AlignedBuffer<Scalar> mat
   surface->GetFieldData()->AddArray(array);
 }
 
+void addPatchColumns(
+  vtkPolyData* surface, const GreensFunctionsInfo& info, BoundaryElementResult& result, int rows)
+{
+  if (info.patchColumns.empty())
+  {
+    return;
+  }
+  if (result.floatPatchMatrix.size() > 0)
+  {
+    addMatrix<vtkFloatArray>(
+      surface, arrays::PatchGreensFunctions, std::move(result.floatPatchMatrix), rows);
+  }
+  else
+  {
+    addMatrix<vtkDoubleArray>(
+      surface, arrays::PatchGreensFunctions, std::move(result.patchMatrix), rows);
+  }
+  vtkNew<vtkIdTypeArray> patchNodes;
+  patchNodes->SetName(arrays::PatchGreensFunctionNodes);
+  patchNodes->SetNumberOfComponents(2);
+  for (const PatchColumn& column : info.patchColumns)
+  {
+    const vtkIdType tuple[2] = { column.node, column.patch };
+    patchNodes->InsertNextTypedTuple(tuple);
+  }
+  surface->GetFieldData()->AddArray(patchNodes);
+}
+
 void addDiagnostics(vtkPolyData* surface, const Diagnostics& d)
 {
   setFieldNumber(surface, arrays::ConditionEstimate, d.conditionEstimate);
@@ -249,28 +277,7 @@ void setGreensFunctions(
     nodes->InsertNextValue(node);
   }
   surface->GetFieldData()->AddArray(nodes);
-  if (!info.patchColumns.empty())
-  {
-    if (result.floatPatchMatrix.size() > 0)
-    {
-      addMatrix<vtkFloatArray>(
-        surface, arrays::PatchGreensFunctions, std::move(result.floatPatchMatrix), rows);
-    }
-    else
-    {
-      addMatrix<vtkDoubleArray>(
-        surface, arrays::PatchGreensFunctions, std::move(result.patchMatrix), rows);
-    }
-    vtkNew<vtkIdTypeArray> patchNodes;
-    patchNodes->SetName(arrays::PatchGreensFunctionNodes);
-    patchNodes->SetNumberOfComponents(2);
-    for (const PatchColumn& column : info.patchColumns)
-    {
-      const vtkIdType tuple[2] = { column.node, column.patch };
-      patchNodes->InsertNextTypedTuple(tuple);
-    }
-    surface->GetFieldData()->AddArray(patchNodes);
-  }
+  addPatchColumns(surface, info, result, rows);
   vtkNew<vtkTypeUInt64Array> fingerprint;
   fingerprint->SetName(arrays::MeshFingerprint);
   fingerprint->InsertNextValue(info.fingerprint);

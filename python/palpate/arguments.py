@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From Python's arguments to the filters' settings."""
+
+import sys
+
+import numpy as np
+
+from .errors import Error
+
+PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
+COLLOCATIONS = {"averaged": 0, "vertex": 1}
+DOMAINS = {"interior": 0, "exterior": 1}
+MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3}
+
+
+def choice(value, choices, what):
+    """The number that a filter knows a choice by."""
+    if value not in choices:
+        raise Error(f"there is no {what} '{value}': choose one of {', '.join(choices)}")
+    return choices[value]
+
+
+def vector(value, what):
+    """Three numbers."""
+    components = np.asarray(value, dtype=float).ravel()
+    if components.size != 3:
+        raise Error(f"{what} must have three components, not {components.size}")
+    return components
+
+
+def vectors(values, count, what):
+    """That many vectors of three numbers."""
+    given = np.asarray(values, dtype=float)
+    if given.size != 3 * count or (given.ndim > 1 and given.shape[-1] != 3):
+        raise Error(f"{what} must be {count} by 3, not {'x'.join(map(str, given.shape))}")
+    return given.reshape(count, 3)
+
+
+def progress_bar(fraction, stage):
+    """Draws a bar on standard error."""
+    width = 30
+    done = int(round(width * fraction))
+    print(f"\r{stage:10s} [{'#' * done}{'.' * (width - done)}] {100 * fraction:3.0f} %",
+          end="\n" if fraction >= 1 else "", file=sys.stderr, flush=True)
+
+
+def progress_callback(progress):
+    """What a function's argument `progress` calls: the bar for True, nothing for None and False."""
+    return progress_bar if progress is True else progress or None
+
+
+def set_mask(algorithm, radius, radius_in_edges, mask):
+    """Gives a filter its pressure mask; a single vertex without any radius."""
+    if radius is not None and radius_in_edges is not None:
+        raise Error("give radius or radius_in_edges, not both")
+    algorithm.SetMask(choice(mask, MASKS, "mask"))
+    algorithm.SetRadiusInEdgeLengths(radius_in_edges is not None)
+    given = radius if radius_in_edges is None else radius_in_edges
+    algorithm.SetRadius(0.0 if given is None else given)
