@@ -31,8 +31,10 @@ public:
 
   ///@{
   /**
-   * Arithmetic and storage: double; mixed (factored in float, refined and stored in double); float
-   * (half the memory and time, about 1e-5 relative). Default double.
+   * Arithmetic and storage: double; mixed (factored in float, refined to 1e-11 and stored in double:
+   * faster than double where a few percent of the columns are wanted, slower where all are, as each
+   * refinement multiplies the system by them); float (half the memory and time, about 1e-5 relative).
+   * Default double.
    */
   enum PrecisionType
   {
