@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", PALPATE_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "A first session:\n"
+      "To begin with:\n"
       "  palpate refine data/kidney.vtp kidney.vtp --levels 2\n"
       "  palpate precompute kidney.vtp model.vtp\n"
       "  palpate press model.vtp pressed.vtp --at 0 0 0.03 --displacement 0 0 -0.005 \\\n"

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 
 #include "commands.h"
@@ -35,9 +36,17 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("input", o.input, "A closed triangle surface")->required();
   command.add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
       ->required();
-  command.add_option("--young", o.young, "Young's modulus, Pa; by default the file's");
-  command.add_option("--poisson", o.poisson,
-                     "Poisson's ratio, above -1 up to 0.5; by default the file's");
+  const CLI::Validator isNumber(
+      [](const std::string& text) {
+        return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number: " + text : "";
+      },
+      "");
+  command.add_option("--young", o.young, "Young's modulus, Pa; by default the file's")
+      ->check(isNumber);
+  command
+      .add_option("--poisson", o.poisson,
+                  "Poisson's ratio, above -1 up to 0.5; by default the file's")
+      ->check(isNumber);
   command
       .add_option("--fix-array", o.fixedArray, "Fix vertices where this point array is not zero")
       ->group("Support (by default the file's array BoundaryType)");

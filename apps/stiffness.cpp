@@ -35,14 +35,11 @@ std::vector<double> freeNorms(vtkPolyData* surface) {
   return values;
 }
 
-/// From the 2nd to the 98th percentile, so that a few vertices by the support do not set the
-/// colours.
-std::array<double, 2> commonRange(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double part) {
-    return values[static_cast<std::size_t>(part * (values.size() - 1))];
-  };
-  return {at(0.02), at(0.98)};
+/// Within 30 % of the mean, so that fields with and without masks show their unevenness alike.
+std::array<double, 2> commonRange(const std::vector<double>& values) {
+  double mean = 0;
+  for (double v : values) mean += v / values.size();
+  return {0.7 * mean, 1.3 * mean};
 }
 
 void printSpread(const std::vector<double>& values) {

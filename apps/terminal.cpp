@@ -163,7 +163,15 @@ void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {
 }
 
 void PictureOptions::addTo(CLI::App& command, const std::string& what) {
-  command.add_option("--image", path, "Draw " + what + " to this PNG file; needs no display");
+  const CLI::Validator isPng(
+      [](const std::string& name) {
+        const bool ends =
+            name.size() > 4 && CLI::detail::to_lower(name.substr(name.size() - 4)) == ".png";
+        return ends ? "" : "pictures are written as .png: choose a name that ends so, not " + name;
+      },
+      "");
+  command.add_option("--image", path, "Draw " + what + " to this PNG file; needs no display")
+      ->check(isPng);
   command
       .add_option("--view", view,
                   "Direction from the object to the eye, three numbers; by default onto the free "

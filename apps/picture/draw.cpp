@@ -10,7 +10,6 @@
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
-#include <vtkExtractEdges.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
@@ -127,24 +126,6 @@ void addSurface(vtkRenderer* renderer, const View& view) {
   renderer->AddActor2D(bar);
 }
 
-/// The edges of the undeformed surface, thin, for comparison.
-void addUndeformedEdges(vtkRenderer* renderer, const View& view) {
-  vtkNew<vtkPolyData> shape;
-  shape->CopyStructure(view.surface);
-  vtkNew<vtkExtractEdges> edges;
-  edges->SetInputData(shape);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(edges->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.6, 0.6, 0.65);
-  actor->GetProperty()->SetOpacity(0.5);
-  actor->GetProperty()->SetLineWidth(0.5);
-  actor->GetProperty()->LightingOff();
-  renderer->AddActor(actor);
-}
-
 void addTitle(vtkRenderer* renderer, const std::string& title) {
   vtkNew<vtkTextActor> text;
   text->SetInput(title.c_str());
@@ -214,7 +195,6 @@ void draw(const Picture& picture, const std::string& path) {
     renderer->SetViewport(i / count, 0, (i + 1) / count, 1);
     renderer->SetBackground(const_cast<double*>(kPaper));
     renderer->SetUseFXAA(true);
-    if (picture.views[i].deformed) addUndeformedEdges(renderer, picture.views[i]);
     addSurface(renderer, picture.views[i]);
     addTitle(renderer, picture.views[i].title);
     renderer->SetActiveCamera(camera);

@@ -19,7 +19,7 @@ struct View {
   std::string
       colourBy;  ///< point array; vectors by their length. Empty: fixed against free vertices
   std::string barTitle;
-  bool deformed = false;  ///< moved by the array Displacement, the undeformed edges drawn behind
+  bool deformed = false;                       ///< moved by the array Displacement
   std::optional<std::array<double, 2>> range;  ///< of the colours; the array's by default
 };
 

@@ -35,15 +35,15 @@ void parallelFor(int count, int threads, const std::function<void(int, int)>& ta
       stopped = true;
     }
   };
-  std::vector<std::thread> helpers;
+  std::vector<std::thread> others;
   try {
     for (int thread = 1; thread < std::min(threads, count); ++thread)
-      helpers.emplace_back(work, thread);
+      others.emplace_back(work, thread);
   } catch (const std::system_error&) {
     // The system grants no more threads: those there are do all the work.
   }
   work(0);
-  for (std::thread& helper : helpers) helper.join();
+  for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
 }
 

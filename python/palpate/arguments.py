@@ -5,6 +5,7 @@
 import sys
 
 import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .errors import Error
 
@@ -21,9 +22,17 @@ def choice(value, choices, what):
     return choices[value]
 
 
+def numbers(values, what):
+    """An array of numbers."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise Error(f"{what} must be numbers") from None
+
+
 def vector(value, what):
     """Three numbers."""
-    components = np.asarray(value, dtype=float).ravel()
+    components = numbers(value, what).ravel()
     if components.size != 3:
         raise Error(f"{what} must have three components, not {components.size}")
     return components
@@ -31,10 +40,51 @@ def vector(value, what):
 
 def vectors(values, count, what):
     """That many vectors of three numbers."""
-    given = np.asarray(values, dtype=float)
+    given = numbers(values, what)
     if given.size != 3 * count or (given.ndim > 1 and given.shape[-1] != 3):
         raise Error(f"{what} must be {count} by 3, not {'x'.join(map(str, given.shape))}")
     return given.reshape(count, 3)
+
+
+def surface_of(value):
+    """A surface, and nothing else."""
+    if not isinstance(value, vtkPolyData):
+        raise Error(f"a surface must be a vtkPolyData, not {type(value).__name__}")
+    return value
+
+
+def number(value, what):
+    """A number that is one."""
+    try:
+        given = float(value)
+    except (TypeError, ValueError):
+        raise Error(f"{what} must be a number, not {value!r}") from None
+    if given != given:
+        raise Error(f"{what} must be a number, not NaN")
+    return given
+
+
+def whole_number(value, what):
+    """An integer, however it is written."""
+    given = number(value, what)
+    if given != int(given):
+        raise Error(f"{what} must be a whole number, not {value}")
+    return int(given)
+
+
+def vertex_list(values, count, what):
+    """Vertex numbers, or a mask of booleans with one value a vertex."""
+    given = np.asarray(values)
+    if given.dtype == bool:
+        if given.shape != (count,):
+            raise Error(f"{what} as booleans must hold {count} values, one a vertex")
+        return np.flatnonzero(given)
+    if given.size and (given.dtype.kind not in "iuf" or not (given == np.floor(given)).all()):
+        raise Error(f"{what} must be whole numbers, vertices of the surface")
+    wrong = given[(given < 0) | (given >= count)]
+    if wrong.size:
+        raise Error(f"{what} name vertex {wrong[0]:.0f}, but the surface has {count}")
+    return given.astype(np.int64).ravel()
 
 
 def progress_bar(fraction, stage):
@@ -57,4 +107,4 @@ def set_mask(algorithm, radius, radius_in_edges, mask):
     algorithm.SetMask(choice(mask, MASKS, "mask"))
     algorithm.SetRadiusInEdgeLengths(radius_in_edges is not None)
     given = radius if radius_in_edges is None else radius_in_edges
-    algorithm.SetRadius(0.0 if given is None else given)
+    algorithm.SetRadius(0.0 if given is None else number(given, "radius"))

@@ -41,7 +41,8 @@ def run(algorithm, progress=None):
 
     def report(*_):
         try:
-            if progress(algorithm.GetProgress(), algorithm.GetProgressText() or "") is False:
+            answer = progress(algorithm.GetProgress(), algorithm.GetProgressText() or "")
+            if answer is not None and not answer:
                 stopped.append(Aborted("aborted by the progress callback"))
         except BaseException as raised:  # carried over VTK's C++ frames
             stopped.append(raised)

@@ -12,10 +12,14 @@ from .arguments import (
     DOMAINS,
     PRECISIONS,
     choice,
+    number,
     progress_callback,
     set_mask,
+    surface_of,
     vector,
     vectors,
+    vertex_list,
+    whole_number,
 )
 from .arrays import array, as_ids, as_vtk
 from .errors import Error, ModelWarning, run
@@ -40,8 +44,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     Parameters
     ----------
     surface : vtkPolyData
-        A closed triangle surface of n vertices, normals out of the material (see `repair`). Lengths
-        in metres, or in any one unit.
+        A closed triangle surface of n vertices, normals out of what it encloses (see `repair`).
+        Lengths in metres, or in any one unit.
     young : float or None
         Young's modulus, Pa, > 0. None takes the surface's field data.
     poisson : float or None
@@ -56,11 +60,13 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     tolerance : float, optional
         Relative tolerance of the integration, 1e-6 by default.
     columns : array_like of int, optional
-        Vertices whose Green's functions are computed; all free ones by default.
+        Vertices whose Green's functions are computed, by number or as a mask of n booleans; all free
+        ones by default. Moving or releasing fixed vertices needs theirs, too.
     domain : {"interior", "exterior"}
         Material inside the surface, or everywhere outside it.
     reciprocal : bool
-        Symmetrise the compliance, so that all that is served comes from one energy.
+        Symmetrise the compliance between free vertices, so that all that is served comes from one
+        energy. Distributed loads on coarse or sharp-edged meshes are more accurate without.
     smooth_angle : float
         Traction may jump at edges sharper than this, degrees, unless the surface has a cell array
         `SmoothPatch`. 180 for one traction a vertex.
@@ -105,9 +111,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         raise Error(f"there is no method '{method}': choose bem")
     conditions = vtkReferenceBoundaryConditions()
     conditioned = vtkPolyData()
-    conditioned.ShallowCopy(surface)
+    conditioned.ShallowCopy(surface_of(surface))
     if fixed is not None:
         fixed = np.asarray(fixed)
+        if fixed.dtype.kind not in "biuf" or not np.isfinite(fixed).all():
+            raise Error("fixed must hold booleans")
         if fixed.shape != (surface.GetNumberOfPoints(),):
             raise Error(f"fixed must hold {surface.GetNumberOfPoints()} values, one a vertex, not "
                         f"{'x'.join(map(str, fixed.shape))}")
@@ -115,9 +123,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
             as_vtk(fixed.astype(bool), "BoundaryType", 1, np.uint8))
     conditions.SetInputData(conditioned)
     if young is not None:
-        conditions.SetYoungsModulus(young)
+        conditions.SetYoungsModulus(number(young, "Young's modulus"))
     if poisson is not None:
-        conditions.SetPoissonRatio(poisson)
+        conditions.SetPoissonRatio(number(poisson, "Poisson's ratio"))
 
     bem = vtkBoundaryElementGreensFunctions()
     bem.SetInputData(run(conditions))
@@ -125,13 +133,14 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
     bem.SetDomain(choice(domain, DOMAINS, "domain"))
     bem.SetReciprocal(bool(reciprocal))
-    bem.SetSmoothAngle(smooth_angle)
+    bem.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     bem.SetPatchColumns(bool(patch_columns))
-    bem.SetNumberOfThreads(threads)
+    bem.SetNumberOfThreads(whole_number(threads, "threads"))
     if tolerance is not None:
-        bem.SetTolerance(tolerance)
+        bem.SetTolerance(number(tolerance, "tolerance"))
     if columns is not None:
-        bem.SetColumnNodes(as_ids(columns, "columns"))
+        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
+        bem.SetColumnNodes(as_ids(nodes, "columns"))
     model = run(bem, progress_callback(progress))
     if model.GetFieldData().HasArray("Warnings"):
         for sentence in array(model, "Warnings"):
@@ -153,7 +162,8 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
         s by 3, metres.
     free_tractions : array_like, optional
         n by 3, pascals: the traction on the other free vertices, the same on all smooth patches of a
-        vertex. Zero by default; values at fixed vertices and at `nodes` do not count.
+        vertex, so that a load on one side of a sharp edge wraps round it: use `face_tractions` there.
+        Zero by default; values at fixed vertices and at `nodes` do not count.
     face_tractions : array_like, optional
         One by 3 for each triangle, pascals: tractions that may jump across sharp edges. Needs
         `patch_columns` where the surface has sharp edges.
@@ -179,8 +189,8 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     >>> round(float(palpate.array(moved, "Displacement")[node, 2]), 9)
     0.001
     """
-    count = model.GetNumberOfPoints()
-    nodes = np.asarray(nodes, dtype=np.int64).ravel()
+    count = surface_of(model).GetNumberOfPoints()
+    nodes = vertex_list(nodes, count, "nodes")
     values = vectors(displacements, nodes.size, "displacements")
     types = np.ones(nodes.size)
     tractions = np.zeros_like(values)
@@ -258,13 +268,13 @@ def press(model, point, displacement=None, force=None, radius=None, mask="linear
     if (displacement is None) == (force is None):
         raise Error("give either a displacement or a force")
     contact = vtkPointContact()
-    contact.SetInputData(model)
+    contact.SetInputData(surface_of(model))
     contact.SetPoint(*vector(point, "point"))
     if displacement is not None:
         contact.SetDisplacement(*vector(displacement, "displacement"))
     else:
         contact.SetForce(*vector(force, "force"))
-    contact.SetRigidStiffness(rigid_stiffness)
+    contact.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
     set_mask(contact, radius, radius_in_edges, mask)
     return run(contact)
 
@@ -309,8 +319,8 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     (130, 9)
     """
     algorithm = vtkSurfaceStiffness()
-    algorithm.SetInputData(model)
-    algorithm.SetRigidStiffness(rigid_stiffness)
+    algorithm.SetInputData(surface_of(model))
+    algorithm.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
     set_mask(algorithm, radius, radius_in_edges, mask)
     return run(algorithm, progress_callback(progress))
 
@@ -341,11 +351,12 @@ def refine(surface, levels=1):
     >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
     620
     """
+    levels = whole_number(levels, "levels")
     if not 0 <= levels <= 8:
         raise Error(f"levels must be 0 to 8, not {levels}")
     refinement = vtkLoopRefinement()
-    refinement.SetInputData(surface)
-    refinement.SetNumberOfLevels(int(levels))
+    refinement.SetInputData(surface_of(surface))
+    refinement.SetNumberOfLevels(levels)
     return run(refinement)
 
 
@@ -376,5 +387,5 @@ def repair(surface):
     0
     """
     mender = vtkElasticMeshRepair()
-    mender.SetInputData(surface)
+    mender.SetInputData(surface_of(surface))
     return run(mender)

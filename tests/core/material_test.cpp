@@ -45,6 +45,8 @@ TEST(Material, YoungsModulusMustBePositiveAndFinite) {
             "Young's modulus must be a positive number, not inf");
   EXPECT_EQ(refusal([] { Material(kNaN, 0.3); }),
             "Young's modulus must be a positive number, not nan");
+  EXPECT_EQ(refusal([] { Material(1e300, 0.3); }),
+            "Young's modulus must be between 1e-60 and 1e60, not 1e+300");
 }
 
 TEST(Material, ShearModulusIsThatOfElasticity) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/mesh_defects.h"
-#include "mesh/off_file.h"
+#include "mesh/polygon_file.h"
 #include "mesh/repair.h"
 #include "mesh/wall_thickness.h"
 #include "support/refusals.h"

@@ -80,6 +80,14 @@ class Constraints(unittest.TestCase):
         a, b = (palpate.array(r, "Displacement") for r in (whole, parts))
         self.assertLess(np.abs(a - b).max(), 1e-13 * np.abs(a).max())
 
+    def test_along_a_direction_load_only_that_component(self):
+        node = by_height(1)[0]
+        one = solved(sphere_model(2), table([node], Traction=[(1, 1, 1)], BoundaryType=[0],
+                                            Direction=[(0, 0, 2)]))
+        whole = solved(sphere_model(2), table([node], Traction=[(0, 0, 1)], BoundaryType=[0]))
+        a, b = (palpate.array(r, "Displacement") for r in (one, whole))
+        self.assertLess(np.abs(a - b).max(), 1e-15 * np.abs(b).max())
+
     def test_by_zone_give_a_force_and_a_torque_each(self):
         points = points_of(sphere(2))
         nodes = by_height(3) + np.argsort(points[:, 0])[-2:].tolist()
@@ -143,6 +151,17 @@ class Refusals(unittest.TestCase):
         nameless.GetRowData().RemoveArray("Node")
         nameless.GetRowData().AddArray(as_vtk([(0, 0, 0)], "Displacement", 3))
         self.assertIn("'Node'", failure_of(solver(sphere_model(1), nameless)))
+
+    def test_tables_whose_columns_differ_in_length_are_refused(self):
+        constraints = table([0, 1, 2], Displacement=np.zeros((3, 3)))
+        constraints.GetRowData().GetArray("Displacement").SetNumberOfTuples(1)
+        self.assertIn("'Displacement' must have 3 tuples", failure_of(
+            solver(sphere_model(1), constraints)))
+
+    def test_boundary_types_other_than_0_and_1_are_named(self):
+        for kind in (7, np.nan):
+            self.assertIn("boundary type of constraint 0", failure_of(
+                solver(sphere_model(1), table([0], BoundaryType=[kind]))))
 
     def test_nodes_out_of_range_are_named(self):
         for node in (42, -1, 2**40):

@@ -147,6 +147,7 @@ class Refinement(unittest.TestCase):
         fine = self.refined(copy_of(sphere_model(1)))
         self.assertFalse(fine.GetFieldData().HasArray("GreensFunctions"))
         self.assertFalse(fine.GetFieldData().HasArray("MeshFingerprint"))
+        self.assertFalse(fine.GetPointData().HasArray("VertexArea"))
         self.assertTrue(fine.GetFieldData().HasArray("YoungsModulus"))
 
     def test_the_limit_is_smooth(self):

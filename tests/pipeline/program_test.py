@@ -58,7 +58,7 @@ class Program(unittest.TestCase):
         return path
 
 
-class Session(Program):
+class Walkthrough(Program):
     def test_of_the_help_runs(self):
         surface, model = self.folder / "kidney.vtp", self.folder / "model.vtp"
         self.run_well("refine", KIDNEY, surface, "--levels", 1)
@@ -95,7 +95,7 @@ class Session(Program):
         self.assertIn("sound                       no", self.run_well("info", flat))
 
     def test_every_command_has_help_with_an_example(self):
-        self.assertIn("A first session", self.run_well("--help"))
+        self.assertIn("To begin with", self.run_well("--help"))
         for command in ("repair", "refine", "precompute", "press", "stiffness"):
             told = self.run_well(command, "--help")
             self.assertIn(f"  palpate {command} ", told)

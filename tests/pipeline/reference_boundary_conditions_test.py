@@ -85,7 +85,7 @@ class Sources(unittest.TestCase):
         algorithm.SetFixedArrayName("Held")
         self.assertTrue((types_of(algorithm) == (self.points[:, 2] < 0)).all())
         algorithm.SetFixedArrayName("None")
-        self.assertEqual(failure_of(algorithm), "there is no point array 'None'")
+        self.assertEqual(failure_of(algorithm), "there is no point array 'None' with a number a point")
 
     def test_sources_add_up_and_can_be_cleared(self):
         algorithm = conditions()

@@ -47,6 +47,25 @@ class Precompute(unittest.TestCase):
         self.assertLess(np.abs(difference).max(), 1e-11 * np.abs(expected).max())
         self.assertEqual(whole.GetNumberOfPoints(), some.GetNumberOfPoints())
 
+    def test_takes_columns_as_a_mask(self):
+        surface = sphere(1)
+        wanted = points_of(surface)[:, 2] > 0.9
+        model = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), columns=wanted)
+        self.assertEqual(palpate.greens_function_nodes(model).tolist(),
+                         np.flatnonzero(wanted).tolist())
+
+    def test_finds_smooth_patches_anew_unless_they_were_given(self):
+        surface = cube(2)
+        fixed = points_of(surface)[:, 2] == 0
+        first = palpate.precompute(surface, 1, 0.3, fixed=fixed)
+        again = palpate.precompute(first, 1, 0.3, fixed=fixed, smooth_angle=180)
+        self.assertEqual(np.unique(palpate.array(first, "SmoothPatch")).size, 6)
+        self.assertEqual(np.unique(palpate.array(again, "SmoothPatch")).size, 1)
+        surface.GetCellData().AddArray(palpate.arrays.as_vtk(
+            palpate.array(first, "SmoothPatch"), "SmoothPatch", 1, np.int32))
+        given = palpate.precompute(surface, 1, 0.3, fixed=fixed, smooth_angle=180)
+        self.assertEqual(np.unique(palpate.array(given, "SmoothPatch")).size, 6)
+
     def test_float_and_mixed_precision_agree_with_double(self):
         surface = sphere(2)
         fixed = lower_cap(surface)

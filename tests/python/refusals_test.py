@@ -173,6 +173,26 @@ class Problems(Refusals):
         for angle in (-1, 181, np.nan):
             self.precompute_refused("angle", sphere(1), smooth_angle=angle)
 
+    def test_values_that_are_no_numbers_are_refused(self):
+        self.precompute_refused("Young's modulus must be a number, not NaN", sphere(1), young=np.nan)
+        self.precompute_refused("Poisson's ratio must be a number, not NaN", sphere(1), poisson=np.nan)
+        self.precompute_refused("Young's modulus must be a number", sphere(1), young="soft")
+        self.precompute_refused("fixed must hold booleans", sphere(1), fixed=np.full(42, np.nan))
+        self.refused("levels must be a whole number", palpate.refine, sphere(1), 1.5)
+
+    def test_what_is_no_surface_is_refused(self):
+        for call in (palpate.refine, palpate.repair, palpate.stiffness):
+            self.refused("a surface must be a vtkPolyData, not NoneType", call, None)
+        self.refused("vtkPolyData", palpate.precompute, None, 1, 0.3)
+        self.refused("vtkPolyData", palpate.solve, "model", [], [])
+        self.refused("vtkPolyData", palpate.press, None, (0, 0, 0), force=(0, 0, 1))
+
+    def test_columns_that_are_no_vertices_are_refused(self):
+        self.precompute_refused("whole numbers", sphere(1), columns=[3.7])
+        self.precompute_refused("one a vertex", sphere(1), columns=[True, False])
+        self.precompute_refused("columns to compute is empty", sphere(1), columns=[])
+        self.precompute_refused(str(2**40), sphere(1), columns=[2**40])
+
     def test_columns_out_of_range_are_named(self):
         self.precompute_refused("42", sphere(1), columns=[42])
         self.precompute_refused("-1", sphere(1), columns=[-1])
@@ -266,13 +286,29 @@ class Staleness(Refusals):
         finer.Update()
         self.refused("compute them again", palpate.stiffness, finer.GetOutput())
 
+    def test_models_without_their_matrix_are_refused(self):
+        model = copy_of(sphere_model(1))
+        model.GetFieldData().RemoveArray("GreensFunctions")
+        self.refused("'GreensFunctions'", palpate.stiffness, model)
+        model.GetFieldData().GetArray("GreensFunctionNodes").SetNumberOfTuples(0)
+        self.refused("is empty", palpate.press, model, (0, 0, 1), force=(0, 0, 1))
+
+    def test_matrices_of_two_precisions_are_refused(self):
+        surface = cube(2)
+        model = palpate.precompute(surface, 1, 0.3, fixed=points_of(surface)[:, 2] == 0,
+                                   patch_columns=True)
+        patches = palpate.array(model, "PatchGreensFunctions").astype(np.float32)
+        model.GetFieldData().AddArray(as_vtk(patches, "PatchGreensFunctions", patches.shape[1],
+                                             np.float32))
+        self.refused("both hold doubles or both floats", palpate.solve, model, [], [])
+
     def test_damaged_matrices_are_refused(self):
         model = copy_of(sphere_model(1))
         palpate.greens_functions(model)[5, 2] = np.nan
         self.refused("not finite", palpate.stiffness, model)
         model = copy_of(sphere_model(1))
         palpate.greens_function_nodes(model)[0] = 10**6
-        self.refused("node", palpate.stiffness, model)
+        self.refused("column 0 names vertex 1000000", palpate.stiffness, model)
 
 
 class Files(Refusals):

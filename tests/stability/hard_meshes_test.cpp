@@ -125,6 +125,25 @@ TEST(Valence, OfFortyAtThePoleKeepsTheCompliance) {
   EXPECT_NEAR(fan(0, 0), fan(1, 1), 1e-6 * fan(0, 0));  // forty-fold symmetry
 }
 
+TEST(SmoothPatches, OfSingleTrianglesAllOverASupportKeepTheSystemRegular) {
+  for (const Collocation collocation : {Collocation::Averaged, Collocation::Vertex})
+    for (const double smoothAngle : {0.0, 30.0}) {
+      const ElasticModel model = makeModel(
+          jitteredSphere(2, 0.3).mapped([](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+            return x * (1 + 0.05 * std::sin(31 * x.x() + 57 * x.y() + 43 * x.z()));
+          }),
+          [](const Eigen::Vector3d& x) { return x.z() < -0.6; }, 1, 0.3, smoothAngle);
+      BoundaryElementOptions options;
+      options.collocation = collocation;
+      options.columns = {model.conditions().freeNodes().front()};
+      EXPECT_LT(
+          computeBoundaryElementGreensFunctions(model, options).info.diagnostics.conditionEstimate,
+          1e4);
+    }
+}
+
+#ifdef PALPATE_WITH_CGAL
+
 /// The warnings about walls of a plate clamped over a part of its length, and its wall ratio.
 std::pair<std::string, double> wallWarning(double thickness, int layers) {
   const ElasticModel model = makeModel(
@@ -149,6 +168,8 @@ TEST(ThinPlate, WarnsWithTheRatioOfEdgeToThicknessAndMoreUrgentlyWhenItLocks) {
   EXPECT_GT(lockingRatio, 10 * thinRatio);
   EXPECT_GT(thinRatio, 2 * solidRatio);
 }
+
+#endif
 
 TEST(SecondBody, HoweverNearIsNeitherPressedNorFelt) {
   const Shape one = icosphere(2);

@@ -44,10 +44,6 @@ Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions);
 /// Torus around the z axis.
 Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundMinor);
 
-/// Unit sphere whose mesh is as fine as a wanted edge length asks near each place (by repeated
-/// bisection of the longest edges, new vertices on the sphere).
-Shape gradedSphere(const std::function<double(const Eigen::Vector3d&)>& edgeLength);
-
 /// Unit sphere of rings of vertices around the z axis with a vertex at each pole.
 /// @param edgeLength  wanted at a polar angle (radians from the north pole).
 /// @param lines       polar angles, ascending, at which a ring must lie.

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -127,6 +128,7 @@ class Precomputation {
     const SolveReport report = solve(system, progress.part(kAssembleShare, 1));
     system.matrix = {};
     addSeconds(diagnostics, "solve", watch.seconds());
+    requireRegular(report.conditionEstimate);
     diagnostics.conditionEstimate =
         std::max(diagnostics.conditionEstimate, report.conditionEstimate);
     diagnostics.solverResidual = std::max(diagnostics.solverResidual, report.residual);
@@ -144,6 +146,16 @@ class Precomputation {
                                  system.columns, progress);
     return solveInPlace(system.matrix, system.size, system.stride, system.right, system.columns,
                         progress);
+  }
+
+  /// Half of the digits at least must be left.
+  static void requireRegular(double condition) {
+    const double largest = 1 / std::sqrt(double(std::numeric_limits<Scalar>::epsilon()));
+    if (condition < largest) return;
+    std::ostringstream text;
+    text << "the boundary element system is nearly singular (condition number " << condition
+         << ", at most " << largest << "): the surface or its support is degenerate somewhere";
+    throw std::runtime_error(text.str());
   }
 
   using Columns =

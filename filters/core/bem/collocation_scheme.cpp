@@ -57,6 +57,24 @@ class EquationBuilder {
     scheme_.equations.push_back(std::move(equation));
   }
 
+  /// Its mean over points inside some of the triangles around the vertex, the centres of mass of
+  /// its hat there: each belongs to one vertex and one triangle alone, so that no two such
+  /// equations are alike, however many patches meet.
+  void addWithin(int v, const std::vector<Corner>& over) {
+    CollocationEquation equation = standingFor(v, over);
+    for (const Corner& c : over) {
+      Eigen::Vector3d barycentric = Eigen::Vector3d::Constant(0.25);
+      barycentric[c.corner] = 0.5;
+      Eigen::Vector3d place = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k)
+        place += barycentric[k] * body_.points.col(body_.triangles(k, c.triangle));
+      equation.terms.push_back(
+          {static_cast<int>(scheme_.points.size()), body_.areas[c.triangle] / (3 * equation.area)});
+      scheme_.points.push_back({place, {{c.triangle, barycentric}}});
+    }
+    scheme_.equations.push_back(std::move(equation));
+  }
+
   /// Its mean under the vertex's hat over some of the triangles around it.
   void addAverage(int v, const std::vector<Corner>& over) {
     CollocationEquation equation = standingFor(v, over);
@@ -125,14 +143,14 @@ CollocationScheme::CollocationScheme(const BodySurface& body, Collocation kindOf
         builder.addAverage(v, corners[v]);
       continue;
     }
-    for (int node : unknown) {  // triangles of no unknown patch go with the first
+    for (int node : unknown) {  // triangles of no unknown patch go with the first one's
       std::vector<Corner> over;
       for (const Corner& c : corners[v]) {
         const int other = body.nodes.ofCorner(c.corner, c.triangle);
         const bool isElsewhere = std::count(unknown.begin(), unknown.end(), other) > 0;
         if (other == node || (node == unknown.front() && !isElsewhere)) over.push_back(c);
       }
-      builder.addAverage(v, over);
+      builder.addWithin(v, over);
     }
   }
   for (TractionUnknown& traction : tractions) {

@@ -31,11 +31,11 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
 /// 6.2-6.4). Where columns that a vertex's mask needs were not computed, its stiffness is NaN.
 class SurfaceStiffness {
  public:
-  /// @param rigidStiffness  k_Rigid of eq. 33 (N/m), the stiffness of fixed vertices and the most
-  /// that
-  ///                        the haptic stiffness shows; 0 for the stiffest elastic vertex.
-  /// @throws as maskedVertexStiffness if no vertex has its columns; std::invalid_argument for a rigid stiffness that is negative
-  ///         or not finite, or for another surface's Green's functions; Aborted.
+  /// @param rigidStiffness  k_Rigid of eq. 33 (N/m): the stiffness of fixed vertices, and the most
+  ///                        that the haptic stiffness shows; 0 for the stiffest elastic vertex.
+  /// @throws as maskedVertexStiffness if no vertex has its columns; std::invalid_argument for a
+  ///         rigid stiffness that is negative or not finite, or for another surface's Green's
+  ///         functions; Aborted.
   SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape, double radius,
                    double rigidStiffness = 0, const ProgressCallback& progress = {});

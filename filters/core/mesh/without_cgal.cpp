@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "mesh/mesh_defects.h"
-#include "mesh/off_file.h"
+#include "mesh/polygon_file.h"
 #include "mesh/repair.h"
 #include "mesh/wall_thickness.h"
 
@@ -22,6 +22,10 @@ WallRatio largestWallRatio(const SurfaceMesh&) {
 
 PolygonSoup readOffFile(const std::string&) {
   throw std::runtime_error("OFF files need CGAL, which this build of Palpate was made without");
+}
+
+PolygonSoup readPlyFile(const std::string&) {
+  throw std::runtime_error("PLY files need CGAL, which this build of Palpate was made without");
 }
 
 RepairedSurface repairSurface(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,

@@ -24,6 +24,10 @@ Material::Material(double youngsModulus, double poissonRatio)
   if (!(youngsModulus > 0) || !std::isfinite(youngsModulus))
     throw std::invalid_argument("Young's modulus must be a positive number, not " +
                                 withAllDigits(youngsModulus));
+  // Far beyond any unit; stiffness and compliance stay finite.
+  if (youngsModulus < 1e-60 || youngsModulus > 1e60)
+    throw std::invalid_argument("Young's modulus must be between 1e-60 and 1e60, not " +
+                                withAllDigits(youngsModulus));
   if (!(poissonRatio > -1 && poissonRatio <= 0.5))
     throw std::invalid_argument("Poisson's ratio must be above -1 and at most 0.5, not " +
                                 withAllDigits(poissonRatio));

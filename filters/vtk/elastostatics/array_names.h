@@ -23,6 +23,7 @@ constexpr const char* HapticRatio = "HapticRatio";               // |K^H| / |K^E
 constexpr const char* SmoothPatch = "SmoothPatch"; // int, traction may jump between patches
 
 // Field data: material and reference problem.
+constexpr const char* SmoothAngle = "SmoothAngle"; // degrees; SmoothPatch was found by it, not given
 constexpr const char* YoungsModulus = "YoungsModulus"; // Pa
 constexpr const char* PoissonRatio = "PoissonRatio";
 

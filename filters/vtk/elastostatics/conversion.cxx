@@ -18,7 +18,10 @@
 #include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace palpate::convert
@@ -159,6 +162,18 @@ void setSurface(
   surface->SetPolys(polys);
 }
 
+int vertexNumber(double value, vtkIdType count, const std::string& what, vtkIdType index)
+{
+  if (!(value >= 0 && value < count && value == std::floor(value)))
+  {
+    std::ostringstream text;
+    text << what << index << " names vertex " << std::setprecision(17) << value
+         << ", but the surface has " << count;
+    throw std::invalid_argument(text.str());
+  }
+  return static_cast<int>(value);
+}
+
 bool hasField(vtkDataObject* data, const char* name)
 {
   return data->GetFieldData() && data->GetFieldData()->GetAbstractArray(name);
@@ -250,7 +265,8 @@ std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional)
   if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
   {
     throw std::invalid_argument(std::string("the surface has no point array '") +
-      arrays::BoundaryType + "' with a value a point: vtkReferenceBoundaryConditions makes it");
+      arrays::BoundaryType + "' with a value a point: say which vertices are fixed (vtkReferenceBoundaryConditions, "
+        "`palpate precompute --fix-...`)");
   }
   std::vector<unsigned char> types;
   for (vtkIdType i = 0; i < count; ++i)

@@ -4,6 +4,8 @@
 #ifndef palpate_conversion_h
 #define palpate_conversion_h
 
+#include "vtkType.h"
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -23,6 +25,10 @@ Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface);
 Eigen::Matrix3Xi triangulatedCellsOf(vtkPolyData* surface);
 /// Replaces points (double precision) and cells; attributes are left alone.
 void setSurface(vtkPolyData* surface, const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles);
+
+/// A vertex number that an array gives as a floating-point value.
+/// @throws unless it is a whole number from 0 to count - 1; the sentence begins with `what` and `index`.
+int vertexNumber(double value, vtkIdType count, const std::string& what, vtkIdType index);
 
 bool hasField(vtkDataObject* data, const char* name);
 /// A number of one-tuple field data.

@@ -52,7 +52,7 @@ Eigen::VectorXi storedPatches(vtkPolyData* surface)
 
 Material materialOf(vtkPolyData* surface)
 {
-  const std::string cure = "give the material with vtkReferenceBoundaryConditions";
+  const std::string cure = "give Young's modulus and Poisson's ratio (vtkReferenceBoundaryConditions)";
   return Material(fieldNumber(surface, arrays::YoungsModulus, cure),
     fieldNumber(surface, arrays::PoissonRatio, cure));
 }
@@ -184,10 +184,16 @@ std::vector<int> columnNodesOf(vtkPolyData* surface)
       "the surface carries no Green's functions: compute them with "
       "vtkBoundaryElementGreensFunctions (palpate precompute)");
   }
+  if (array->GetNumberOfTuples() == 0)
+  {
+    throw std::invalid_argument(std::string("the field array '") + arrays::GreensFunctionNodes +
+      "' is empty: compute the Green's functions again");
+  }
   std::vector<int> nodes;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    nodes.push_back(static_cast<int>(array->GetComponent(i, 0)));
+    nodes.push_back(vertexNumber(array->GetComponent(i, 0), surface->GetNumberOfPoints(),
+      "the Green's function of column ", i));
   }
   return nodes;
 }
@@ -199,12 +205,8 @@ std::vector<PatchColumn> patchColumnsOf(vtkPolyData* surface)
   for (vtkIdType i = 0; array && array->GetNumberOfComponents() == 2 && i < array->GetNumberOfTuples();
        ++i)
   {
-    const int node = static_cast<int>(array->GetComponent(i, 0));
-    if (node < 0 || node >= surface->GetNumberOfPoints())
-    {
-      throw std::invalid_argument("patch column " + std::to_string(i) + " belongs to node " +
-        std::to_string(node) + ", which does not exist");
-    }
+    const int node = vertexNumber(
+      array->GetComponent(i, 0), surface->GetNumberOfPoints(), "the patch column ", i);
     columns.push_back({ node, static_cast<int>(array->GetComponent(i, 1)) });
   }
   return columns;
@@ -243,14 +245,17 @@ std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface)
   return mesh;
 }
 
+bool hasGivenPatches(vtkPolyData* surface)
+{
+  return surface->GetCellData()->GetArray(arrays::SmoothPatch) &&
+    !hasField(surface, arrays::SmoothAngle);
+}
+
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 {
   const auto mesh = soundMeshOf(surface);
-  Eigen::VectorXi patches = storedPatches(surface);
-  if (patches.size() == 0)
-  {
-    patches = findSmoothPatches(*mesh, smoothAngle);
-  }
+  Eigen::VectorXi patches =
+    hasGivenPatches(surface) ? storedPatches(surface) : findSmoothPatches(*mesh, smoothAngle);
   const bool exterior = domain == Domain::Exterior;
   return ElasticModel(mesh, materialOf(surface),
     BoundaryConditions(boundaryTypesOf(surface, exterior)), std::move(patches), domain);
@@ -331,6 +336,11 @@ ServedModel servedModelOf(vtkPolyData* surface)
     fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
   info.source = fieldString(surface, arrays::GreensFunctionSource);
 
+  if (patchMatrix.array && patchMatrix.array->GetDataType() != matrix.array->GetDataType())
+  {
+    throw std::invalid_argument(std::string("the field arrays '") + arrays::GreensFunctions +
+      "' and '" + arrays::PatchGreensFunctions + "' must both hold doubles or both floats");
+  }
   auto keeper = std::make_shared<std::pair<MatrixView, MatrixView>>(matrix, patchMatrix);
   std::shared_ptr<const GreensFunctions> stored;
   if (matrix.array->GetDataType() == VTK_FLOAT)

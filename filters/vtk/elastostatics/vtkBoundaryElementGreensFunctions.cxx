@@ -3,6 +3,8 @@
 
 #include "vtkBoundaryElementGreensFunctions.h"
 
+#include "array_names.h"
+#include "conversion.h"
 #include "model_arrays.h"
 
 #include "vtkIdTypeArray.h"
@@ -10,6 +12,8 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkBoundaryElementGreensFunctions);
 
@@ -65,10 +69,19 @@ void vtkBoundaryElementGreensFunctions::Compute(
   options.threads = this->NumberOfThreads;
   for (vtkIdType i = 0; this->ColumnNodes && i < this->ColumnNodes->GetNumberOfValues(); ++i)
   {
-    options.columns.push_back(static_cast<int>(this->ColumnNodes->GetValue(i)));
+    options.columns.push_back(palpate::convert::vertexNumber(
+      static_cast<double>(this->ColumnNodes->GetValue(i)), input->GetNumberOfPoints(), "column ", i));
+  }
+  if (this->ColumnNodes && options.columns.empty())
+  {
+    throw std::invalid_argument("the list of columns to compute is empty");
   }
   palpate::convert::setGreensFunctions(output, model,
     palpate::computeBoundaryElementGreensFunctions(model, options,
       [this](double fraction, const char* stage)
       { return this->ReportProgress(fraction, stage); }));
+  if (!palpate::convert::hasGivenPatches(input))
+  {
+    palpate::convert::setFieldNumber(output, palpate::arrays::SmoothAngle, this->SmoothAngle);
+  }
 }

@@ -17,6 +17,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -101,17 +103,18 @@ public:
       return;
     }
     this->Node = this->Find(attributes, arrays::Node, 1);
-    this->Displacement = this->Find(attributes, arrays::Displacement, 3);
-    this->Traction = this->Find(attributes, arrays::Traction, 3);
-    this->Type = this->Find(attributes, arrays::BoundaryType, 1);
-    this->Direction = this->Find(attributes, arrays::Direction, 3);
-    this->ZoneNumber = this->Find(attributes, arrays::Zone, 1);
     if (!this->Node)
     {
       throw std::invalid_argument(
         std::string("the constraints have no array '") + arrays::Node + "' of vertex numbers");
     }
     this->Count = this->Node->GetNumberOfTuples();
+    this->Displacement = this->Find(attributes, arrays::Displacement, 3);
+    this->Traction = this->Find(attributes, arrays::Traction, 3);
+    this->Type = this->Find(attributes, arrays::BoundaryType, 1);
+    this->Direction = this->Find(attributes, arrays::Direction, 3);
+    this->ZoneNumber = this->Find(attributes, arrays::Zone, 1);
+    this->RequireBoundaryTypes();
   }
 
   vtkIdType GetCount() const { return this->Count; }
@@ -119,7 +122,12 @@ public:
   bool IsDisplacement(vtkIdType i) const { return !this->Type || this->Type->GetComponent(i, 0) != 0; }
   int GetZone(vtkIdType i) const
   {
-    return this->ZoneNumber ? static_cast<int>(this->ZoneNumber->GetComponent(i, 0)) : 0;
+    const double zone = this->ZoneNumber ? this->ZoneNumber->GetComponent(i, 0) : 0;
+    if (!(std::abs(zone) <= std::numeric_limits<int>::max()))
+    {
+      throw std::invalid_argument("the zone of constraint " + std::to_string(i) + " is not a number");
+    }
+    return static_cast<int>(zone);
   }
   Eigen::Vector3d GetValue(vtkIdType i) const
   {
@@ -128,7 +136,7 @@ public:
   Eigen::Vector3d GetDirection(vtkIdType i) const { return VectorOf(this->Direction, i); }
 
 private:
-  static vtkDataArray* Find(vtkDataSetAttributes* attributes, const char* name, int components)
+  vtkDataArray* Find(vtkDataSetAttributes* attributes, const char* name, int components) const
   {
     vtkDataArray* array = attributes->GetArray(name);
     if (array && array->GetNumberOfComponents() != components)
@@ -137,7 +145,25 @@ private:
         std::to_string(components) + " components, not " +
         std::to_string(array->GetNumberOfComponents()));
     }
+    if (array && this->Node && array->GetNumberOfTuples() != this->Count)
+    {
+      throw std::invalid_argument(std::string("the constraints' array '") + name + "' must have " +
+        std::to_string(this->Count) + " tuples, one a constraint, not " +
+        std::to_string(array->GetNumberOfTuples()));
+    }
     return array;
+  }
+  void RequireBoundaryTypes() const
+  {
+    for (vtkIdType i = 0; this->Type && i < this->Count; ++i)
+    {
+      const double type = this->Type->GetComponent(i, 0);
+      if (type != 0 && type != 1)
+      {
+        throw std::invalid_argument("the boundary type of constraint " + std::to_string(i) +
+          " must be 0 (traction) or 1 (displacement), not " + std::to_string(type));
+      }
+    }
   }
   static Eigen::Vector3d VectorOf(vtkDataArray* array, vtkIdType i)
   {
@@ -168,13 +194,7 @@ struct Problem
     std::vector<double> prescribed;
     for (vtkIdType i = 0; i < table.GetCount(); ++i)
     {
-      if (!(table.GetNode(i) >= 0 && table.GetNode(i) < count))
-      {
-        throw std::invalid_argument("constraint " + std::to_string(i) + " names vertex " +
-          std::to_string(static_cast<long long>(table.GetNode(i))) + ", but the surface has " +
-          std::to_string(count));
-      }
-      const int node = static_cast<int>(table.GetNode(i));
+      const int node = convert::vertexNumber(table.GetNode(i), count, "constraint ", i);
       const Eigen::Vector3d value = table.GetValue(i), direction = table.GetDirection(i);
       if (table.IsDisplacement(i))
       {
@@ -182,7 +202,8 @@ struct Problem
       }
       if (greens.isFixed(node) == table.IsDisplacement(i))
       {
-        this->Values.given.col(node) += value;
+        this->Values.given.col(node) +=
+          direction.isZero(0) ? value : direction * direction.dot(value) / direction.squaredNorm();
         continue;
       }
       if (direction.isZero(0))

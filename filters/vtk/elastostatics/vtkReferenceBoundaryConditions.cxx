@@ -22,6 +22,7 @@
 #include "vtkSelection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkReferenceBoundaryConditions);
@@ -111,6 +112,39 @@ vtkImplicitFunction* vtkReferenceBoundaryConditions::GetFixedFunction()
 
 namespace
 {
+using Six = std::array<double, 6>;
+using Four = std::array<double, 4>;
+
+void requireSensibleRegions(
+  const std::vector<Six>& halfSpaces, const std::vector<Six>& boxes, const std::vector<Four>& balls)
+{
+  const auto isFinite = [](const auto& values)
+  { return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }); };
+  for (const Six& h : halfSpaces)
+  {
+    if (!isFinite(h) || (h[3] == 0 && h[4] == 0 && h[5] == 0))
+    {
+      throw std::invalid_argument(
+        "a fixed half-space needs a finite origin and a finite normal that is not zero");
+    }
+  }
+  for (const Six& b : boxes)
+  {
+    if (!isFinite(b) || b[0] > b[1] || b[2] > b[3] || b[4] > b[5])
+    {
+      throw std::invalid_argument(
+        "a fixed box needs finite bounds in the order xmin, xmax, ymin, ymax, zmin, zmax");
+    }
+  }
+  for (const Four& s : balls)
+  {
+    if (!isFinite(s) || s[3] < 0)
+    {
+      throw std::invalid_argument("a fixed ball needs a finite centre and a radius of at least 0");
+    }
+  }
+}
+
 /// 1 for each point of the surface that a selection of points or of cells holds.
 std::vector<unsigned char> selectedPoints(vtkPolyData* surface, vtkSelection* selection)
 {
@@ -157,6 +191,7 @@ void vtkReferenceBoundaryConditions::Compute(
 {
   namespace arrays = palpate::arrays;
   const vtkIdType count = input->GetNumberOfPoints();
+  requireSensibleRegions(this->HalfSpaces, this->Boxes, this->Spheres);
   vtkSelection* selection = vtkSelection::GetData(inputs[1]);
   const bool hasRegions =
     !this->HalfSpaces.empty() || !this->Boxes.empty() || !this->Spheres.empty();
@@ -170,13 +205,20 @@ void vtkReferenceBoundaryConditions::Compute(
     vtkDataArray* array = this->FixedArrayName.empty()
       ? nullptr
       : input->GetPointData()->GetArray(this->FixedArrayName.c_str());
-    if (!this->FixedArrayName.empty() && !array)
+    if (!this->FixedArrayName.empty() &&
+      (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != count))
     {
-      throw std::invalid_argument("there is no point array '" + this->FixedArrayName + "'");
+      throw std::invalid_argument(
+        "there is no point array '" + this->FixedArrayName + "' with a number a point");
     }
     for (vtkIdType i = 0; i < count; ++i)
     {
       const Eigen::Vector3d x(input->GetPoint(i));
+      if (array && std::isnan(array->GetComponent(i, 0)))
+      {
+        throw std::invalid_argument("the value of the array '" + this->FixedArrayName +
+          "' at point " + std::to_string(i) + " is not a number");
+      }
       bool fixed = array && array->GetComponent(i, 0) != 0;
       for (const auto& h : this->HalfSpaces)
       {
@@ -205,7 +247,7 @@ void vtkReferenceBoundaryConditions::Compute(
     {
       palpate::convert::setFieldNumber(output, name, value);
     }
-    return palpate::convert::fieldNumber(output, name, "set it on this filter");
+    return palpate::convert::fieldNumber(output, name, "give Young's modulus and Poisson's ratio");
   };
   const double young = keepOrSet(arrays::YoungsModulus, this->YoungsModulus);
   const double poisson = keepOrSet(arrays::PoissonRatio, this->PoissonRatio);

@@ -3,12 +3,19 @@
 
 #include "file_checks.h"
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -71,7 +78,7 @@ void sealXml(const std::string& path)
   }
 }
 
-void requireWholeXml(const std::string& path)
+bool requireWholeXml(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
   const std::string end = endOf(file, 256);
@@ -83,12 +90,72 @@ void requireWholeXml(const std::string& path)
   const std::size_t seal = end.find(SealStart, root);
   if (seal == std::string::npos)
   {
-    return;
+    return false;
   }
   const std::string stored = end.substr(seal + std::string(SealStart).size(), SealDigits);
   if (stored != checksum(file, sizeOf(file) - (end.size() - seal)))
   {
     throw std::runtime_error("the file is damaged: it has changed since it was written");
+  }
+  return true;
+}
+
+namespace
+{
+constexpr rlim_t LongestRehearsal = 120; // seconds of CPU time
+
+/// What the rehearsing process does: quietly, within bounds, and without coming back.
+[[noreturn]] void rehearseHere(std::uint64_t fileSize, const std::function<void()>& read)
+{
+  for (int signalNumber : { SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGINT, SIGTERM })
+  {
+    signal(signalNumber, SIG_DFL);
+  }
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  std::uint64_t pagesInUse = 0;
+  std::ifstream("/proc/self/statm") >> pagesInUse;
+  const rlim_t memory = pagesInUse * sysconf(_SC_PAGESIZE) + 16 * fileSize + (rlim_t(1) << 30);
+  const rlimit bounds[] = { { memory, memory }, { LongestRehearsal, LongestRehearsal }, { 0, 0 } };
+  setrlimit(RLIMIT_AS, &bounds[0]);
+  setrlimit(RLIMIT_CPU, &bounds[1]);
+  setrlimit(RLIMIT_CORE, &bounds[2]);
+  try
+  {
+    read();
+  }
+  catch (const std::bad_alloc&)
+  {
+    _exit(1);
+  }
+  catch (...)
+  {
+  }
+  _exit(0);
+}
+} // namespace
+
+void rehearse(const std::string& path, const std::function<void()>& read)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::uint64_t size = sizeOf(file);
+  const pid_t process = fork();
+  if (process == 0)
+  {
+    rehearseHere(size, read);
+  }
+  if (process < 0)
+  {
+    return; // no process to be had: the reading proper will do
+  }
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR)
+  {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  {
+    throw std::runtime_error("the file is damaged: it cannot be read");
   }
 }
 

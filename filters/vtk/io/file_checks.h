@@ -4,6 +4,7 @@
 #ifndef palpate_file_checks_h
 #define palpate_file_checks_h
 
+#include <functional>
 #include <string>
 
 /// What VTK's readers do not check before they trust a file.
@@ -14,9 +15,16 @@ namespace palpate::io
 /// @throws std::runtime_error if the file cannot be read or written.
 void sealXml(const std::string& path);
 
+/// @return true if the file is sealed and whole; files of other programs carry no seal.
 /// @throws std::runtime_error if the file ends before its root element does, or if it is sealed and
-///         has changed since. Files of other programs carry no seal.
-void requireWholeXml(const std::string& path);
+///         has changed since.
+bool requireWholeXml(const std::string& path);
+
+/// Reads a file in a process of its own first, with bounded time and memory: VTK's readers crash on
+/// some damaged files.
+/// @param read  what will be done with the file; what it throws is left to the reading proper.
+/// @throws std::runtime_error if the process crashed or went beyond its bounds.
+void rehearse(const std::string& path, const std::function<void()>& read);
 
 /// @throws std::runtime_error if a binary STL file is shorter than its triangles need, of which VTK
 ///         would read what there is.

@@ -4,7 +4,7 @@
 #include "vtkElasticSurfaceReader.h"
 
 #include "file_checks.h"
-#include "mesh/off_file.h"
+#include "mesh/polygon_file.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -15,7 +15,6 @@
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
 #include "vtkObjectFactory.h"
-#include "vtkPLYReader.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -23,6 +22,7 @@
 #include "vtkXMLPolyDataReader.h"
 #include "vtksys/SystemTools.hxx"
 
+#include <iostream>
 #include <stdexcept>
 #include <string>
 
@@ -74,6 +74,24 @@ private:
   bool Failed = false;
 };
 
+/// CGAL says what is wrong with a PLY file on std::cerr.
+class QuietErrorStream
+{
+public:
+  QuietErrorStream()
+    : Before(std::cerr.rdbuf(nullptr))
+  {
+  }
+  ~QuietErrorStream()
+  {
+    std::cerr.rdbuf(this->Before);
+    std::cerr.clear();
+  }
+
+private:
+  std::streambuf* Before;
+};
+
 template <class Reader>
 void readWith(const std::string& path, vtkPolyData* output)
 {
@@ -88,9 +106,20 @@ void readWith(const std::string& path, vtkPolyData* output)
   output->ShallowCopy(reader->GetOutput());
 }
 
-void readOff(const std::string& path, vtkPolyData* output)
+template <class Reader>
+void readWarily(const std::string& path, vtkPolyData* output)
 {
-  const palpate::PolygonSoup soup = palpate::readOffFile(path);
+  palpate::io::rehearse(path,
+    [&]
+    {
+      vtkNew<vtkPolyData> unused;
+      readWith<Reader>(path, unused);
+    });
+  readWith<Reader>(path, output);
+}
+
+void setPolygons(const palpate::PolygonSoup& soup, vtkPolyData* output)
+{
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (Eigen::Index i = 0; i < soup.points.cols(); ++i)
@@ -156,25 +185,33 @@ void readFile(const std::string& path, vtkPolyData* output)
     vtksys::SystemTools::GetFilenameLastExtension(path));
   if (extension == ".vtp")
   {
-    palpate::io::requireWholeXml(path);
-    readWith<vtkXMLPolyDataReader>(path, output);
+    if (palpate::io::requireWholeXml(path))
+    {
+      readWith<vtkXMLPolyDataReader>(path, output);
+    }
+    else
+    {
+      readWarily<vtkXMLPolyDataReader>(path, output);
+    }
   }
   else if (extension == ".stl")
   {
     palpate::io::requireWholeStl(path);
-    readWith<vtkSTLReader>(path, output);
+    readWarily<vtkSTLReader>(path, output);
   }
   else if (extension == ".obj")
   {
-    readWith<vtkOBJReader>(path, output);
+    readWarily<vtkOBJReader>(path, output);
   }
   else if (extension == ".ply")
   {
-    readWith<vtkPLYReader>(path, output);
+    const QuietErrorStream quiet;
+    palpate::io::rehearse(path, [&] { palpate::readPlyFile(path); });
+    setPolygons(palpate::readPlyFile(path), output);
   }
   else if (extension == ".off")
   {
-    readOff(path, output);
+    setPolygons(palpate::readOffFile(path), output);
   }
   else
   {

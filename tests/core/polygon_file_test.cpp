@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "mesh/off_file.h"
+#include "mesh/polygon_file.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +97,27 @@ TEST(OffFile, AnIndexOutOfRangeIsRefused) {
                   [&] { read(std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n") + polygon + "\n"); }),
               "the file is not a readable OFF file")
         << polygon;
+}
+
+const std::string kTetrahedronPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+TEST(PlyFile, GivesPointsAndPolygonsAsTheyStand) {
+  const PolygonSoup soup = readPlyFile(TemporaryFile(kTetrahedronPly).path());
+  EXPECT_EQ(soup.points.cols(), 4);
+  EXPECT_EQ(soup.points.col(3), Eigen::Vector3d::UnitZ());
+  ASSERT_EQ(soup.polygons.size(), 4u);
+  EXPECT_EQ(soup.polygons[2], (std::vector<int>{1, 2, 3}));
+}
+
+TEST(PlyFile, CutShortAnywhereBeforeItsLastNumberIsRefused) {
+  for (std::size_t length = 0; length < kTetrahedronPly.size() - 3; ++length)
+    EXPECT_EQ(refusal<std::runtime_error>(
+                  [&] { readPlyFile(TemporaryFile(kTetrahedronPly.substr(0, length)).path()); }),
+              "the file is not a readable PLY file")
+        << length;
 }
 
 }  // namespace

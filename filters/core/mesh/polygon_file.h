@@ -20,4 +20,7 @@ struct PolygonSoup {
 ///         without CGAL.
 PolygonSoup readOffFile(const std::string& path);
 
+/// The same for a Polygon File Format file, text or binary (.ply; CGAL).
+PolygonSoup readPlyFile(const std::string& path);
+
 }  // namespace palpate

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "mesh/off_file.h"
+#include "mesh/polygon_file.h"
 
 #include <CGAL/IO/OFF.h>
+#include <CGAL/IO/PLY.h>
 
 #include <fstream>
 #include <stdexcept>
@@ -38,23 +39,20 @@ bool hasPlausibleCounts(std::ifstream& file) {
   return isPlausible;
 }
 
-bool read(std::ifstream& file, std::vector<CgalPoint>& points, std::vector<Corners>& polygons) {
-  try {
-    return hasPlausibleCounts(file) && CGAL::IO::read_OFF(file, points, polygons);
-  } catch (const std::length_error&) {
-    return false;
-  }
-}
-
-}  // namespace
-
-PolygonSoup readOffFile(const std::string& path) {
-  std::ifstream file(path);
+/// Reads with one of CGAL's readers, all of whose failures are one.
+template <class Read>
+PolygonSoup readWith(const std::string& path, const char* format, const Read& read) {
+  std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("the file cannot be opened");
   std::vector<CgalPoint> points;
   std::vector<Corners> polygons;
-  if (!read(file, points, polygons))
-    throw std::runtime_error("the file is not a readable OFF file");
+  bool isRead = false;
+  try {
+    isRead = read(file, points, polygons);
+  } catch (const std::exception&) {  // such as a length that no memory holds
+  }
+  if (!isRead)
+    throw std::runtime_error(std::string("the file is not a readable ") + format + " file");
   PolygonSoup soup;
   soup.points.resize(3, points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -62,6 +60,20 @@ PolygonSoup readOffFile(const std::string& path) {
   for (const Corners& polygon : polygons)
     soup.polygons.emplace_back(polygon.begin(), polygon.end());
   return soup;
+}
+
+}  // namespace
+
+PolygonSoup readOffFile(const std::string& path) {
+  return readWith(path, "OFF", [](std::ifstream& file, auto& points, auto& polygons) {
+    return hasPlausibleCounts(file) && CGAL::IO::read_OFF(file, points, polygons);
+  });
+}
+
+PolygonSoup readPlyFile(const std::string& path) {
+  return readWith(path, "PLY", [](std::ifstream& file, auto& points, auto& polygons) {
+    return CGAL::IO::read_PLY(file, points, polygons);
+  });
 }
 
 }  // namespace palpate
