@@ -81,7 +81,6 @@ Blocks integrateByPanel(const BodySurface& body, const Eigen::Vector3d& x, doubl
   std::vector<double> h(9 * kLanes * body.vertexCount(), 0), g(6 * kLanes * body.nodes.count(), 0);
   const PanelTriangle triangle = panels.triangle(0);
   const int ownIndex = own ? 0 : -1;
-  long count = 0;
   PanelTask task;
   for (int c = 0; c < 3; ++c) std::fill_n(task.x[c], kLanes, x[c]);
   task.triangles = &triangle;
@@ -92,7 +91,6 @@ Blocks integrateByPanel(const BodySurface& body, const Eigen::Vector3d& x, doubl
   task.poissonRatio = body.poissonRatio;
   task.h = h.data();
   task.g = g.data();
-  task.closedFormCount = &count;
   integratePanel(task);
   static constexpr int index[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   for (int k = 0; k < 3; ++k)

@@ -44,10 +44,6 @@ Vector pick(const Vector& values, const std::vector<int>& indices) {
   return picked;
 }
 
-double characteristicLength(const ElasticModel& model, const std::vector<int>& faces) {
-  return std::sqrt(pick(model.mesh().triangleAreas(), faces).sum());
-}
-
 }  // namespace
 
 int BodySurface::bodyCount(const ElasticModel& model) {
@@ -55,14 +51,18 @@ int BodySurface::bodyCount(const ElasticModel& model) {
 }
 
 BodySurface::BodySurface(const ElasticModel& model, int body)
-    : vertices(verticesOfBody(model, body)),
-      length(characteristicLength(model, trianglesOfBody(model, body))),
-      triangles(localTriangles(model, vertices, trianglesOfBody(model, body))),
-      areas(pick(model.mesh().triangleAreas(), trianglesOfBody(model, body)) / (length * length)),
+    : BodySurface(model, verticesOfBody(model, body), trianglesOfBody(model, body)) {}
+
+BodySurface::BodySurface(const ElasticModel& model, std::vector<int> verticesOfModel,
+                         const std::vector<int>& faces)
+    : vertices(std::move(verticesOfModel)),
+      length(std::sqrt(pick(model.mesh().triangleAreas(), faces).sum())),
+      triangles(localTriangles(model, vertices, faces)),
+      areas(pick(model.mesh().triangleAreas(), faces) / (length * length)),
       exterior(model.domain() == Domain::Exterior),
       poissonRatio(model.material().poissonRatio()),
       nodes(static_cast<int>(vertices.size()), triangles, areas,
-            pick(model.smoothPatches(), trianglesOfBody(model, body))) {
+            pick(model.smoothPatches(), faces)) {
   const SurfaceMesh& mesh = model.mesh();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int v : vertices) middle += mesh.points().col(v) / double(vertices.size());
@@ -71,7 +71,6 @@ BodySurface::BodySurface(const ElasticModel& model, int body)
     points.col(i) = (mesh.points().col(vertices[i]) - middle) / length;
     fixed.push_back(model.conditions().isFixed(vertices[i]));
   }
-  const std::vector<int> faces = trianglesOfBody(model, body);
   normals.resize(3, faces.size());
   std::vector<int> localShell(mesh.shellCount(), -1);
   for (std::size_t f = 0; f < faces.size(); ++f) {

@@ -43,6 +43,9 @@ struct BodySurface {
   bool exterior;                    ///< the material is the infinite space around the shells
   double poissonRatio;
   TractionNodes nodes;
+
+ private:
+  BodySurface(const ElasticModel& model, std::vector<int> vertices, const std::vector<int>& faces);
 };
 
 }  // namespace palpate::bem

@@ -44,16 +44,22 @@ class EquationBuilder {
  public:
   EquationBuilder(const BodySurface& body, const std::vector<std::vector<Corner>>& corners,
                   CollocationScheme& scheme)
-      : body_(body),
-        corners_(corners),
-        scheme_(scheme),
-        vertexPoint_(body.vertexCount(), -1),
-        centroidPoint_(body.triangleCount(), -1) {}
+      : body_(body), corners_(corners), scheme_(scheme), centroidPoint_(body.triangleCount(), -1) {}
 
   /// The equation at the vertex itself.
   void addAtVertex(int v) {
     CollocationEquation equation = standingFor(v, corners_[v]);
-    equation.terms = {{pointAtVertex(v), 1}};
+    equation.terms = {{addPointAtVertex(v), 1}};
+    scheme_.equations.push_back(std::move(equation));
+  }
+
+  /// Its mean under the vertex's hat.
+  void addAverage(int v) {
+    CollocationEquation equation = standingFor(v, corners_[v]);
+    equation.terms = {{addPointAtVertex(v), 0.25}};
+    for (const Corner& c : corners_[v])
+      equation.terms.push_back(
+          {pointAtCentroid(c.triangle), 0.75 * body_.areas[c.triangle] / (3 * equation.area)});
     scheme_.equations.push_back(std::move(equation));
   }
 
@@ -75,16 +81,6 @@ class EquationBuilder {
     scheme_.equations.push_back(std::move(equation));
   }
 
-  /// Its mean under the vertex's hat over some of the triangles around it.
-  void addAverage(int v, const std::vector<Corner>& over) {
-    CollocationEquation equation = standingFor(v, over);
-    equation.terms = {{pointAtVertex(v), 0.25}};
-    for (const Corner& c : over)
-      equation.terms.push_back(
-          {pointAtCentroid(c.triangle), 0.75 * body_.areas[c.triangle] / (3 * equation.area)});
-    scheme_.equations.push_back(std::move(equation));
-  }
-
  private:
   CollocationEquation standingFor(int v, const std::vector<Corner>& corners) const {
     CollocationEquation equation{{}, v, 0, Eigen::Vector3d::Zero()};
@@ -95,14 +91,12 @@ class EquationBuilder {
     return equation;
   }
 
-  int pointAtVertex(int v) {
-    if (vertexPoint_[v] < 0) {
-      vertexPoint_[v] = static_cast<int>(scheme_.points.size());
-      scheme_.points.push_back({body_.points.col(v), {}});
-      for (const Corner& c : corners_[v])
-        scheme_.points.back().own.push_back({c.triangle, Eigen::Vector3d::Unit(c.corner)});
-    }
-    return vertexPoint_[v];
+  int addPointAtVertex(int v) {
+    CollocationPoint point{body_.points.col(v), {}};
+    for (const Corner& c : corners_[v])
+      point.own.push_back({c.triangle, Eigen::Vector3d::Unit(c.corner)});
+    scheme_.points.push_back(std::move(point));
+    return static_cast<int>(scheme_.points.size()) - 1;
   }
 
   int pointAtCentroid(int f) {
@@ -116,7 +110,7 @@ class EquationBuilder {
   const BodySurface& body_;
   const std::vector<std::vector<Corner>>& corners_;
   CollocationScheme& scheme_;
-  std::vector<int> vertexPoint_, centroidPoint_;
+  std::vector<int> centroidPoint_;  // of each triangle; three equations share it
 };
 
 }  // namespace
@@ -130,9 +124,7 @@ CollocationScheme::CollocationScheme(const BodySurface& body, Collocation kindOf
     std::vector<int> unknown;
     if (body.fixed[v]) {
       unknown = nodesOfFixedTriangles(body, corners[v]);
-      std::vector<int> all;
-      for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node) all.push_back(node);
-      if (unknown.empty()) tractions.push_back({v, all, 0, v, 1});
+      if (unknown.empty()) tractions.push_back({v, body.nodes.ofVertex(v), 0, v, 1});
       for (std::size_t i = 0; i < unknown.size(); ++i)
         tractions.push_back({v, {unknown[i]}, 0, i == 0 ? v : nextColumn++, 1});
     }
@@ -140,7 +132,7 @@ CollocationScheme::CollocationScheme(const BodySurface& body, Collocation kindOf
       if (kind == Collocation::Vertex)
         builder.addAtVertex(v);
       else
-        builder.addAverage(v, corners[v]);
+        builder.addAverage(v);
       continue;
     }
     for (int node : unknown) {  // triangles of no unknown patch go with the first one's

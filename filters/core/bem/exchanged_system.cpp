@@ -37,12 +37,10 @@ std::vector<ColumnBlock> columnBlocks(const BodySurface& body, const Collocation
                       -scheme.tractions[i].scale});
   int column = 0;
   for (int v : wanted.vertices) {
-    std::vector<int> nodes;
-    for (int node = body.nodes.first(v); node < body.nodes.end(v); ++node) nodes.push_back(node);
     if (body.fixed[v])
       blocks.push_back({true, column++, v, {}, -1});
     else
-      blocks.push_back({true, column++, -1, nodes, 1});
+      blocks.push_back({true, column++, -1, body.nodes.ofVertex(v), 1});
   }
   for (int node : wanted.patchTractions) blocks.push_back({true, column++, -1, {node}, 1});
   return blocks;

@@ -163,7 +163,6 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
     const int point = points[std::min<std::size_t>(lane, points.size() - 1)];
     for (int c = 0; c < 3; ++c) task.x[c][lane] = scheme_.points[point].position[c];
   }
-  long closedFormCount = 0;
   task.triangles = triangles_.data();
   task.triangleCount = static_cast<int>(triangles_.size());
   task.ownIndex = work.ownIndex_.data();
@@ -173,10 +172,7 @@ void InfluencePanels::integratePoints(const std::vector<int>& points, Workspace&
   task.poissonRatio = body_.poissonRatio;
   task.h = h;
   task.g = g;
-  task.closedFormCount = &closedFormCount;
   integratePanel(task);
-  closedFormCount_ += closedFormCount;
-  pairCount_ += task.triangleCount;
   for (int point : points)
     for (const CollocationPoint::Own& own : scheme_.points[point].own)
       work.ownIndex_[positionOfTriangle_[own.triangle]] = -1;

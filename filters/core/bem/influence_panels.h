@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <vector>
 
 #include "bem/collocation_scheme.h"
@@ -63,11 +62,6 @@ class InfluencePanels {
   /// Place of a vertex's values in a workspace among those of all vertices.
   int placeOf(int vertex) const { return placeOfVertex_[vertex]; }
 
-  /// Pairs of a group of kLanes points and a triangle integrated so far, and how many of them in
-  /// closed form.
-  long pairCount() const { return pairCount_; }
-  long closedFormCount() const { return closedFormCount_; }
-
  private:
   bool computeAtPoints(int panel, Workspace& work) const;
   void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
@@ -80,7 +74,6 @@ class InfluencePanels {
   std::vector<int> positionOfTriangle_;
   std::vector<int> placeOfVertex_, placeOfNode_;  // in the order in which the triangles meet them
   PanelRule nearRule_, farRule_;
-  mutable std::atomic<long> closedFormCount_{0}, pairCount_{0};
 };
 
 }  // namespace palpate::bem

@@ -15,7 +15,6 @@ constexpr int kLanes = 8;  ///< collocation points of a panel
 /// A quadrature rule on a triangle made of the centroid and two triples (1 - 2 b, b, b), or of one
 /// triple alone.
 struct PanelRule {
-  int tripleCount;            ///< 1 without, 2 with the centroid
   double centroidWeight;      ///< weights sum to 1 over the points
   double weight[2], near[2];  ///< of a triple's points: weight, and 1 - 2 b
   double smallestDistance;    ///< from the centroid, in triangle radii, at which it is accurate
@@ -57,9 +56,9 @@ struct PanelTask {
   const OwnTriangle* own;
   PanelRule nearRule, farRule;  ///< seven points, three points
   double poissonRatio;
-  double* h;              ///< #V blocks, added to
-  double* g;              ///< #traction nodes blocks, added to
-  long* closedFormCount;  ///< counts the panel-triangle pairs integrated in closed form
+  double* h;                        ///< #V blocks, added to
+  double* g;                        ///< #traction nodes blocks, added to
+  long* closedFormCount = nullptr;  ///< counts, unless null, the pairs integrated in closed form
 };
 
 /// Adds the integrals of all triangles to a panel's blocks, for unit shear modulus:

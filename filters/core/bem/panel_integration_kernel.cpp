@@ -271,7 +271,7 @@ void integratePanel(const PanelTask& task) {
     if (choice.anyClosedForm) {
       kernel.addInClosedForm(t, task.ownIndex[f] < 0 ? nullptr : task.own + task.ownIndex[f],
                              all ? nullptr : choice.closedForm);
-      ++*task.closedFormCount;
+      if (task.closedFormCount) ++*task.closedFormCount;
     }
   }
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <vector>
 
 namespace palpate::bem {
@@ -22,6 +23,11 @@ struct TractionNodes {
   int count() const { return static_cast<int>(vertex.size()); }
   int first(int v) const { return firstOfVertex[v]; }
   int end(int v) const { return firstOfVertex[v + 1]; }
+  std::vector<int> ofVertex(int v) const {
+    std::vector<int> nodes(end(v) - first(v));
+    std::iota(nodes.begin(), nodes.end(), first(v));
+    return nodes;
+  }
 
   Eigen::Matrix3Xi ofCorner;       ///< 3 by #F, node of each triangle's corner
   std::vector<int> vertex;         ///< #nodes

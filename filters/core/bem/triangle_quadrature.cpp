@@ -44,18 +44,25 @@ class RuleBuilder {
   int count_ = 0;
 };
 
+/// The classical rule of degree 5: the centroid and two triples (1 - 2b, b, b).
+struct SevenPoints {
+  double centroidWeight = 0.225;
+  double b[2] = {(6 - std::sqrt(15.0)) / 21, (6 + std::sqrt(15.0)) / 21};
+  double weight[2] = {(155 - std::sqrt(15.0)) / 1200, (155 + std::sqrt(15.0)) / 1200};
+};
+
 }  // namespace
 
 TriangleRule triangleRule(int pointCount) {
-  const double root15 = std::sqrt(15.0);
+  const SevenPoints seven;
   switch (pointCount) {
     case 3:
       return RuleBuilder(2, 3).triple(1.0 / 6, 1.0 / 3).build();
     case 7:
       return RuleBuilder(5, 7)
-          .centroid(0.225)
-          .triple((6 - root15) / 21, (155 - root15) / 1200)
-          .triple((6 + root15) / 21, (155 + root15) / 1200)
+          .centroid(seven.centroidWeight)
+          .triple(seven.b[0], seven.weight[0])
+          .triple(seven.b[1], seven.weight[1])
           .build();
     case 16:
       return RuleBuilder(8, 16)
@@ -81,13 +88,12 @@ void choosePanelRules(double tolerance, PanelRule& nearRule, PanelRule& farRule)
   const auto distance = [&](int degree) {
     return std::max(std::pow(factor / reachable, 1.0 / (degree + 1)), 1.5);
   };
-  const double root15 = std::sqrt(15.0);
-  nearRule = {2,
-              0.225,
-              {(155 - root15) / 1200, (155 + root15) / 1200},
-              {1 - 2 * (6 - root15) / 21, 1 - 2 * (6 + root15) / 21},
+  const SevenPoints seven;
+  nearRule = {seven.centroidWeight,
+              {seven.weight[0], seven.weight[1]},
+              {1 - 2 * seven.b[0], 1 - 2 * seven.b[1]},
               distance(5)};
-  farRule = {1, 0, {1.0 / 3, 0}, {2.0 / 3, 0}, distance(2)};
+  farRule = {0, {1.0 / 3, 0}, {2.0 / 3, 0}, distance(2)};
 }
 
 }  // namespace palpate::bem

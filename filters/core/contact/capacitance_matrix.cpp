@@ -16,16 +16,6 @@
 #include "greens/weighted_columns.h"
 
 namespace palpate {
-namespace {
-
-using ConstStrided = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-int padded(int size) {
-  return (size + kInversePadding - 1) / kInversePadding * kInversePadding;
-}
-
-}  // namespace
-
 void requireSwitches(const GreensFunctions& greens, const std::vector<ConstraintSwitch>& switches) {
   std::vector<int> nodes;
   for (const ConstraintSwitch& s : switches) nodes.push_back(s.node);
@@ -177,11 +167,7 @@ Eigen::MatrixXd CapacitanceMatrix::inverse() const {
 double CapacitanceMatrix::condition() const {
   if (size() == 0) return 1;
   const auto norm = [&](const AlignedBuffer<double>& matrix) {
-    return ConstStrided(matrix.data(), size(), size(), Eigen::OuterStride<>(stride_))
-        .cwiseAbs()
-        .colwise()
-        .sum()
-        .maxCoeff();
+    return present(matrix).cwiseAbs().colwise().sum().maxCoeff();
   };
   return norm(compliance_) * norm(inverse_);
 }
@@ -189,8 +175,7 @@ double CapacitanceMatrix::condition() const {
 std::pair<int, int> CapacitanceMatrix::weakestPair() const {
   const int n = size();
   if (n < 2) return {-1, -1};
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(
-      ConstStrided(compliance_.data(), n, n, Eigen::OuterStride<>(stride_)));
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(present(compliance_));
   // The columns before the largest drop of the pivots span the matrix. The last one less its
   // combination of those is what the matrix all but annihilates.
   const Eigen::VectorXd pivots = qr.matrixR().diagonal().cwiseAbs();

@@ -118,6 +118,11 @@ class CapacitanceMatrix {
     return greens_->isFixed(node) ? length_
                                   : modulus_ * length_ * length_ / greens_->vertexArea(node);
   }
+  /// The part of a matrix that the present switches fill.
+  Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>> present(
+      const AlignedBuffer<double>& matrix) const {
+    return {matrix.data(), size(), size(), Eigen::OuterStride<>(stride_)};
+  }
   double* column(const AlignedBuffer<double>& matrix, int k) const {
     return matrix.data() + std::size_t(k) * stride_;
   }

@@ -15,11 +15,6 @@ namespace palpate {
 namespace {
 
 using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-using ConstStrided = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-int padded(int size) {
-  return (size + kInversePadding - 1) / kInversePadding * kInversePadding;
-}
 
 /// A fixed vector without structure, entries in [-1, 1].
 double probe(int k) {
@@ -233,9 +228,8 @@ double CapacitanceMatrix::residual() noexcept {
   for (int k = 0; k < n; ++k) z[k] = probe(k);
   const Eigen::Map<const Eigen::VectorXd> zMap(z, n);
   Eigen::Map<Eigen::VectorXd> innerMap(inner, n), outerMap(outer, n);
-  innerMap.noalias() = ConstStrided(inverse_.data(), n, n, Eigen::OuterStride<>(stride_)) * zMap;
-  outerMap.noalias() =
-      ConstStrided(compliance_.data(), n, n, Eigen::OuterStride<>(stride_)) * innerMap;
+  innerMap.noalias() = present(inverse_) * zMap;
+  outerMap.noalias() = present(compliance_) * innerMap;
   return (outerMap - zMap).norm() / zMap.norm();
 }
 

@@ -8,6 +8,11 @@ namespace palpate {
 /// Rows and columns of the matrices below are padded with zeros to a multiple of this.
 constexpr int kInversePadding = 8;
 
+/// The size with its padding.
+constexpr int padded(int size) {
+  return (size + kInversePadding - 1) / kInversePadding * kInversePadding;
+}
+
 /// The two memory passes of an update of an explicit inverse by `count` <= 3 rows and columns.
 /// Matrices are column-major with the given stride (a multiple of kInversePadding).
 

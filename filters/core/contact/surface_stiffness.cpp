@@ -65,34 +65,27 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   masks_.resize(n);
   hapticRatio_.assign(n, 1);
   asymmetry_.assign(n, 0);
-  served_.assign(n, true);
+  std::vector<int> served;
   double largest = 0;
-  int servedCount = 0, lastUnserved = -1;
   for (int v = 0; v < n; ++v) {
     if (v % 64 == 0) progress.report(double(v) / n, "stiffness");
     if (greens_->isFixed(v)) continue;
     masks_[v] = masks.at(v);
-    if (!hasColumns(*greens_, masks_[v])) {
-      served_[v] = false;
-      lastUnserved = v;
-      continue;
-    }
-    ++servedCount;
+    if (!hasColumns(*greens_, masks_[v])) continue;
+    served.push_back(v);
     const VertexStiffness result = maskedVertexStiffness(*greens_, v, masks_[v]);
     elastic_[v] = result.stiffness;
     asymmetry_[v] = result.asymmetry;
     largest = std::max(largest, result.stiffness.norm());
   }
-  if (servedCount == 0 && lastUnserved >= 0)
-    greens_->requireColumns(nodeList(masks_[lastUnserved].nodes));
+  const std::vector<int> free = greens_->info().conditions.freeNodes();
+  if (served.empty() && !free.empty()) greens_->requireColumns(nodeList(masks_[free.back()].nodes));
   // |K^R|_F = sqrt(3) k_Rigid.
   if (rigidStiffness_ == 0) rigidStiffness_ = largest / std::sqrt(3.0);
-  for (int v = 0; v < n; ++v) {
-    if (greens_->isFixed(v))
-      elastic_[v] = rigidStiffness_ * Eigen::Matrix3d::Identity();
-    else if (served_[v])
-      hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
-  }
+  for (int v : greens_->info().conditions.fixedNodes())
+    elastic_[v] = rigidStiffness_ * Eigen::Matrix3d::Identity();
+  for (int v : served)
+    hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
   progress.report(1, "stiffness");
 }
 

@@ -41,11 +41,8 @@ class SurfaceStiffness {
                    double rigidStiffness = 0, const ProgressCallback& progress = {});
 
   const GreensFunctions& greens() const { return *greens_; }
-  const std::shared_ptr<const GreensFunctions>& sharedGreens() const { return greens_; }
   const SurfaceMesh& mesh() const { return *mesh_; }
 
-  /// Whether the columns of the vertex's mask were computed, or it is fixed.
-  bool isServed(int vertex) const { return served_[vertex]; }
   /// K_i: K^E where the vertex is free, k_Rigid times identity where it is fixed (eq. 32-33). N/m.
   const Eigen::Matrix3d& elastic(int vertex) const { return elastic_[vertex]; }
   /// eta_i = min(1, |K^R| / |K^E_i|), 1 where fixed (section 6.4).
@@ -71,7 +68,6 @@ class SurfaceStiffness {
   std::vector<Eigen::Matrix3d> elastic_;
   std::vector<double> hapticRatio_, asymmetry_;
   std::vector<VertexMask> masks_;
-  std::vector<bool> served_;
 };
 
 }  // namespace palpate

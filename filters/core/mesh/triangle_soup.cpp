@@ -69,6 +69,14 @@ std::vector<int> findPieces(const TriangleSoup& soup, const std::vector<Triangle
   return root;
 }
 
+/// How many of an edge's triangles each piece owns.
+template <class Side>
+std::map<int, int> trianglesByPiece(Side first, Side last, const std::vector<int>& piece) {
+  std::map<int, int> share;
+  for (auto side = first; side != last; ++side) ++share[piece[side->triangle]];
+  return share;
+}
+
 /// Pieces with an open border that own one triangle of an edge at which another piece owns two: a
 /// surface passes there without them.
 void dropDanglingPieces(TriangleSoup& soup, ChangeList& changes) {
@@ -78,8 +86,7 @@ void dropDanglingPieces(TriangleSoup& soup, ChangeList& changes) {
     const std::vector<int> piece = findPieces(soup, sides);
     std::set<int> open, hanging;
     forEachEdge(sides, [&](auto first, auto last) {
-      std::map<int, int> share;
-      for (auto side = first; side != last; ++side) ++share[piece[side->triangle]];
+      const std::map<int, int> share = trianglesByPiece(first, last, piece);
       const bool passes = std::any_of(share.begin(), share.end(),
                                       [](const auto& entry) { return entry.second == 2; });
       for (const auto& [number, count] : share) {
@@ -135,8 +142,7 @@ void requireClearEdges(const TriangleSoup& soup, const std::vector<TriangleSide>
                        const std::vector<int>& piece) {
   forEachEdge(sides, [&](auto first, auto last) {
     if (last - first <= 2) return;
-    std::map<int, int> share;
-    for (auto side = first; side != last; ++side) ++share[piece[side->triangle]];
+    const std::map<int, int> share = trianglesByPiece(first, last, piece);
     for (const auto& [number, count] : share) {
       if (count == 2) continue;
       std::ostringstream text;
