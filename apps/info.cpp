@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
@@ -12,31 +11,13 @@
 #include <memory>
 
 #include "commands.h"
+#include "conversion.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/surface_mesh.h"
 #include "terminal.h"
 
 namespace palpate::app {
 namespace {
-
-Eigen::Matrix3Xd pointsOf(vtkPolyData* surface) {
-  Eigen::Matrix3Xd points(3, surface->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < points.cols(); ++i) surface->GetPoint(i, points.col(i).data());
-  return points;
-}
-
-/// Empty if there is a cell that is not a triangle.
-Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface) {
-  Eigen::Matrix3Xi triangles(3, surface->GetNumberOfCells());
-  for (vtkIdType f = 0; f < triangles.cols(); ++f) {
-    vtkIdType count;
-    const vtkIdType* corners;
-    surface->GetCellPoints(f, count, corners);
-    if (count != 3) return {};
-    for (int k = 0; k < 3; ++k) triangles(k, f) = static_cast<int>(corners[k]);
-  }
-  return triangles;
-}
 
 void printDefects(const std::vector<MeshDefect>& defects) {
   printRow("sound", "no; `palpate repair` may mend it");
@@ -49,18 +30,19 @@ void printSurface(vtkPolyData* surface) {
   printRow("vertices", std::to_string(surface->GetNumberOfPoints()));
   printRow("cells", std::to_string(surface->GetNumberOfCells()));
   printRow("size", vectorText(size));
-  const Eigen::Matrix3Xi triangles = trianglesOf(surface);
-  if (triangles.cols() == 0) {
+  if (!convert::hasOnlyTriangles(surface)) {
     printRow("sound", "no: not all cells are triangles; `palpate repair` cuts them up");
     return;
   }
-  const std::vector<MeshDefect> defects = findMeshDefects(pointsOf(surface), triangles);
+  const Eigen::Matrix3Xd points = convert::pointsOf(surface);
+  const Eigen::Matrix3Xi triangles = convert::trianglesOf(surface);
+  const std::vector<MeshDefect> defects = findMeshDefects(points, triangles);
   if (!defects.empty()) {
     printDefects(defects);
     return;
   }
   try {
-    const SurfaceMesh mesh(pointsOf(surface), triangles);
+    const SurfaceMesh mesh(points, triangles);
     printRow("bodies", std::to_string(mesh.bodyCount()));
     printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
     printRow("area", number(mesh.triangleAreas().sum()));

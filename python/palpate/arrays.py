@@ -3,8 +3,8 @@
 """NumPy views of the arrays on a surface."""
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkStringArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray
 
 
 def array(data, name):
@@ -103,8 +103,6 @@ def as_vtk(values, name, components, dtype=np.float64):
 
 def as_ids(values, name):
     """An id array of a copy of the values."""
-    result = vtkIdTypeArray()
+    result = numpy_to_vtkIdTypeArray(np.asarray(values, dtype=np.int64).ravel(), deep=True)
     result.SetName(name)
-    for value in np.asarray(values, dtype=np.int64).ravel():
-        result.InsertNextValue(int(value))
     return result

@@ -196,10 +196,11 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     tractions = np.zeros_like(values)
     if free_tractions is not None:
         given = vectors(free_tractions, count, "free_tractions")
-        kinds = model.GetPointData().GetArray("BoundaryType")
-        loaded = np.array([i for i in np.flatnonzero(given.any(axis=1) | ~np.isfinite(given).all(axis=1))
-                           if kinds is not None and kinds.GetComponent(i, 0) == 0
-                           and i not in set(nodes.tolist())], dtype=np.int64)
+        counts = given.any(axis=1)  # NaN counts: the filter refuses it
+        counts &= ~np.isin(np.arange(count), nodes)
+        if model.GetPointData().HasArray("BoundaryType"):
+            counts &= array(model, "BoundaryType") == 0
+        loaded = np.flatnonzero(counts)
         nodes = np.concatenate([nodes, loaded])
         values = np.concatenate([values, np.zeros((loaded.size, 3))])
         tractions = np.concatenate([tractions, given[loaded]])
@@ -303,7 +304,7 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     vtkPolyData
         The model with `Stiffness` (n by 9, the matrix row by row, N/m), `StiffnessNorm` (n,
         Frobenius), `StiffnessAsymmetry` and `HapticRatio` (n). Where a vertex's mask needs columns that
-        were not computed, they are NaN.
+        were not computed, its stiffness is NaN.
 
     Raises
     ------

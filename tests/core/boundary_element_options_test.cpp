@@ -12,10 +12,6 @@
 namespace palpate::test {
 namespace {
 
-bool cap(const Eigen::Vector3d& x) {
-  return x.z() < -0.79;
-}
-
 Eigen::MatrixXd matrixOf(const BoundaryElementResult& result) {
   const Eigen::Index rows = 3 * result.info.conditions.nodeCount();
   const Eigen::Index columns = 3 * result.info.columnNodes.size();

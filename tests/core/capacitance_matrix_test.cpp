@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "support/capacitance_consistency.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "support/contact_bodies.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

@@ -10,7 +10,7 @@
 
 #include "contact/capacitance_solver.h"
 #include "support/contact_bodies.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "support/allocation_count.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "linear_algebra/lapack.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 
 namespace palpate::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <Eigen/QR>
 #include <limits>
 
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

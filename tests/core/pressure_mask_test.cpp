@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/shapes.h"
 
 namespace palpate::test {

@@ -11,7 +11,7 @@
 
 #include "contact/capacitance_matrix.h"
 #include "support/contact_bodies.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
 namespace palpate::test {

@@ -11,7 +11,7 @@ from vtkmodules.vtkFiltersCore import vtkStripper
 
 import palpate
 from palpate.arrays import as_vtk
-from support.surfaces import (copy_of, failure_of, points_of, polydata, sphere, sphere_model,
+from support.surfaces import (copy_of, failure_of, points_of, polydata, quad_cube, sphere, sphere_model,
                               triangles_of)
 
 
@@ -40,9 +40,7 @@ class Repair(unittest.TestCase):
         self.assertTrue(output.GetFieldData().HasArray("GreensFunctions"))
 
     def test_cuts_quadrilaterals_into_triangles(self):
-        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-        output, changes = repaired(polydata(corners, quads))
+        output, changes = repaired(quad_cube())
         self.assertEqual(output.GetNumberOfCells(), 12)
         self.assertAlmostEqual(volume(output), 1, delta=1e-12)
         self.assertTrue(changes)

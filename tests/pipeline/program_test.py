@@ -15,7 +15,7 @@ from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 
 import palpate
-from support.surfaces import PROGRAM, points_of, polydata, sphere, triangles_of
+from support.surfaces import PROGRAM, points_of, quad_cube, sphere, triangles_of
 
 KIDNEY = palpate.example("kidney")
 
@@ -132,11 +132,11 @@ class Formats(Program):
         self.assertGreater((palpate.array(palpate.read(model), "BoundaryType") == 1).sum(), 2)
 
     def test_of_quadrilaterals_are_repaired(self):
-        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
         path = self.folder / "box.obj"
-        path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners)
-                        + "".join("f " + " ".join(str(c + 1) for c in q) + "\n" for q in quads))
+        surface = quad_cube()
+        cells = triangles_of(surface).reshape(-1, 4)
+        path.write_text("".join("v %g %g %g\n" % tuple(p) for p in points_of(surface))
+                        + "".join("f %d %d %d %d\n" % tuple(c + 1) for c in cells))
         self.run_badly("only triangles are allowed", "refine", path, self.folder / "fine.vtp")
         self.run_well("repair", path, self.folder / "box.vtp")
         self.assertIn("sound                       yes", self.run_well("info", self.folder / "box.vtp"))

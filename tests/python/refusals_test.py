@@ -11,8 +11,8 @@ import numpy as np
 import palpate
 from palpate.arrays import as_vtk
 from palpate.errors import run
-from support.surfaces import (copy_of, cube, lower_cap, points_of, polydata, sphere, sphere_model,
-                              triangles_of)
+from support.surfaces import (copy_of, cube, lower_cap, points_of, polydata, quad_cube, sphere,
+                              sphere_model, triangles_of)
 
 
 class Refusals(unittest.TestCase):
@@ -100,9 +100,7 @@ class Surfaces(Refusals):
         self.precompute_refused("self-intersection: triangles ", polydata(np.vstack([a, b]), np.vstack([t, t + 42])))
 
     def test_quadrilaterals_are_refused_with_the_cure(self):
-        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-        surface = polydata(corners, quads)
+        surface = quad_cube()
         self.precompute_refused("cell 0 has 4 corners: only triangles are allowed", surface,
                                 fixed=points_of(surface)[:, 2] == 0)
 

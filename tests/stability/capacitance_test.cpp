@@ -10,7 +10,7 @@
 #include "contact/capacitance_solver.h"
 #include "support/capacitance_consistency.h"
 #include "support/contact_bodies.h"
-#include "support/refusal.h"
+#include "support/refusals.h"
 
 namespace palpate::test {
 namespace {

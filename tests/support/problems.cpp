@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bem/kelvin.h"
 #include "mesh/smooth_patches.h"
 
 namespace palpate::test {
@@ -16,6 +17,20 @@ ElasticModel makeModel(const Shape& shape, const Place& fixed, double youngsModu
   return ElasticModel(mesh, Material(youngsModulus, poissonRatio),
                       BoundaryConditions(fixedWhere(shape, fixed)),
                       findSmoothPatches(*mesh, smoothAngle), domain);
+}
+
+NodalField pointSourceField(const ElasticModel& model) {
+  const Eigen::Vector3d source(0.3, 0.4, 1.9), force(0.3, -0.5, 1);
+  const double nu = model.material().poissonRatio();
+  const int n = model.mesh().vertexCount();
+  NodalField field{Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)};
+  for (int v = 0; v < n; ++v) {
+    const Eigen::Vector3d x = model.mesh().points().col(v), r = x - source;
+    field.displacement.col(v) =
+        bem::kelvinDisplacement(r, model.material().shearModulus(), nu) * force;
+    field.traction.col(v) = bem::kelvinTraction(r, x.normalized(), nu).transpose() * force;
+  }
+  return field;
 }
 
 std::shared_ptr<const GreensFunctions> computeGreens(const ElasticModel& model,

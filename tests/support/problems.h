@@ -14,6 +14,19 @@ namespace palpate::test {
 
 using Place = std::function<bool(const Eigen::Vector3d&)>;
 
+/// The support of most unit spheres here: z below -0.79, between two rings of an icosphere.
+inline bool cap(const Eigen::Vector3d& x) {
+  return x.z() < -0.79;
+}
+
+/// Nodal values of an elastic state.
+struct NodalField {
+  Eigen::Matrix3Xd displacement, traction;  ///< 3 by #V
+};
+
+/// On a unit sphere, the field of the point force (0.3, -0.5, 1) at (0.3, 0.4, 1.9) outside it: A2.
+NodalField pointSourceField(const ElasticModel& model);
+
 /// A model of a shape, fixed where `fixed` says.
 ElasticModel makeModel(const Shape& shape, const Place& fixed, double youngsModulus,
                        double poissonRatio, double smoothAngle = 30,

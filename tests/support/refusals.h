@@ -23,9 +23,15 @@ std::string refusal(Call&& call) {
 }
 
 /// For EXPECT_TRUE with a message that shows both.
-inline ::testing::AssertionResult contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "\"" << text << "\" does not contain \"" << part << "\"";
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "\"" << text << "\" does not contain \"" << part << "\"";
+}
+
+/// True if a call is refused with a sentence that contains this.
+template <class Exception = std::invalid_argument, class Call>
+testing::AssertionResult isRefused(Call&& call, const std::string& sentence) {
+  return contains(refusal<Exception>(call), sentence);
 }
 
 }  // namespace palpate::test

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+}  // namespace
+
 Shape fromLists(const std::vector<Eigen::Vector3d>& points,
                 const std::vector<Eigen::Vector3i>& triangles) {
   Shape shape{Eigen::Matrix3Xd(3, points.size()), Eigen::Matrix3Xi(3, triangles.size())};
@@ -22,8 +24,6 @@ Shape fromLists(const std::vector<Eigen::Vector3d>& points,
   for (std::size_t f = 0; f < triangles.size(); ++f) shape.triangles.col(f) = triangles[f];
   return shape;
 }
-
-}  // namespace
 
 Shape Shape::flipped() const {
   Shape out = *this;

@@ -30,6 +30,9 @@ struct Shape {
   Shape mapped(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) const;
 };
 
+Shape fromLists(const std::vector<Eigen::Vector3d>& points,
+                const std::vector<Eigen::Vector3i>& triangles);
+
 /// Unit sphere: an icosahedron whose edges are halved `levels` times, new vertices projected
 /// outwards: 12, 42, 162, 642, 2562 vertices. One vertex is the north pole.
 Shape icosphere(int levels);

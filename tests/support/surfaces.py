@@ -98,6 +98,13 @@ def cube(divisions=4, size=1.0):
     return polydata(points, triangles)
 
 
+def quad_cube():
+    """The unit cube as six quadrilaterals: eight points, six cells of four corners."""
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return polydata(corners, quads)
+
+
 def lower_cap(surface, below=-0.7):
     """True where z is below a height."""
     return points_of(surface)[:, 2] < below

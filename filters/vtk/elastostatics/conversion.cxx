@@ -65,6 +65,12 @@ Eigen::Matrix3Xd pointsOf(vtkPolyData* surface)
   return points;
 }
 
+bool hasOnlyTriangles(vtkPolyData* surface)
+{
+  return surface->GetNumberOfCells() == surface->GetNumberOfPolys() &&
+    surface->GetPolys()->IsHomogeneous() == 3;
+}
+
 Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface)
 {
   requireIndexable(surface);

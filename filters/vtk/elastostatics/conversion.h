@@ -19,6 +19,8 @@ class vtkPolyData;
 namespace palpate::convert
 {
 Eigen::Matrix3Xd pointsOf(vtkPolyData* surface);
+/// Whether every cell is a triangle.
+bool hasOnlyTriangles(vtkPolyData* surface);
 /// @throws unless every cell is a triangle.
 Eigen::Matrix3Xi trianglesOf(vtkPolyData* surface);
 /// Every cell as triangles: polygons as fans, strips cut up; other cells are dropped.

@@ -19,8 +19,7 @@ void vtkElasticMeshRepair::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
 {
   namespace convert = palpate::convert;
   const Eigen::Matrix3Xi triangles = convert::triangulatedCellsOf(input);
-  const bool onlyTriangles = triangles.cols() == input->GetNumberOfCells() &&
-    input->GetPolys()->IsHomogeneous() == 3;
+  const bool onlyTriangles = convert::hasOnlyTriangles(input);
   output->GetFieldData()->RemoveArray(palpate::arrays::RepairChanges); // of an earlier repair
   const palpate::RepairedSurface repaired = palpate::repairSurface(convert::pointsOf(input),
     triangles,
