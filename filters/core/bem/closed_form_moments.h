@@ -35,13 +35,13 @@ class ClosedFormMoments {
   /// @param lane  first lane of the panel to compute.
   ClosedFormMoments(const bem::PanelTask& task, const bem::PanelTriangle& t,
                     const bem::OwnTriangle* own, int lane)
-      : t_(t), own_(own), lane_(lane) {
+      : t_(t), frame_(*t.frame), own_(own), lane_(lane) {
     project(task);
     integrate();
   }
 
   Moments ofHat(int k) const {
-    const double gx = t_.gradient[k][0], gy = t_.gradient[k][1];
+    const double gx = frame_.gradient[k][0], gy = frame_.gradient[k][1];
     const Batch a = hatAtOrigin_[k];
     // r r / r^3 in the local frame: 11, 12, 1n, 22, 2n, nn.
     const Batch one[6] = {combine(a, three2_[0], gx, three3_[0], gy, three3_[1]),
@@ -66,7 +66,8 @@ class ClosedFormMoments {
     rotate(one, m.one);
     rotate(five, m.five);
     for (int c = 0; c < 3; ++c)
-      m.three[c] = t_.axis1[c] * three[0] + t_.axis2[c] * three[1] + t_.normal[c] * three[2];
+      m.three[c] =
+          frame_.axis1[c] * three[0] + frame_.axis2[c] * three[1] + t_.normal[c] * three[2];
     return m;
   }
 
@@ -81,28 +82,28 @@ class ClosedFormMoments {
     Batch offset[3];
     for (int c = 0; c < 3; ++c)
       offset[c] = Batch::load_unaligned(task.x[c] + lane_) - t_.vertex[0][c];
-    Batch x1 = dot(t_.axis1, offset), x2 = dot(t_.axis2, offset);
+    Batch x1 = dot(frame_.axis1, offset), x2 = dot(frame_.axis2, offset);
     d_ = -dot(t_.normal, offset);
     if (own_) {
       const auto isOwn = Batch::load_unaligned(own_->mask + lane_) > Batch(0.5);
       Batch own1(0), own2(0);
       for (int k = 1; k < 3; ++k) {
         const Batch weight = Batch::load_unaligned(own_->barycentric[k] + lane_);
-        own1 = xsimd::fma(weight, Batch(t_.planar[k][0]), own1);
-        own2 = xsimd::fma(weight, Batch(t_.planar[k][1]), own2);
+        own1 = xsimd::fma(weight, Batch(frame_.planar[k][0]), own1);
+        own2 = xsimd::fma(weight, Batch(frame_.planar[k][1]), own2);
       }
       x1 = xsimd::select(isOwn, own1, x1);
       x2 = xsimd::select(isOwn, own2, x2);
       d_ = xsimd::select(isOwn, Batch(0), d_);
     }
     for (int k = 0; k < 3; ++k) {
-      rho_[k][0] = t_.planar[k][0] - x1;
-      rho_[k][1] = t_.planar[k][1] - x2;
+      rho_[k][0] = frame_.planar[k][0] - x1;
+      rho_[k][1] = frame_.planar[k][1] - x2;
       r_[k] = xsimd::sqrt(
           xsimd::fma(rho_[k][0], rho_[k][0], xsimd::fma(rho_[k][1], rho_[k][1], d_ * d_)));
     }
-    hatAtOrigin_[1] = x1 * t_.gradient[1][0] + x2 * t_.gradient[1][1];
-    hatAtOrigin_[2] = x1 * t_.gradient[2][0] + x2 * t_.gradient[2][1];
+    hatAtOrigin_[1] = x1 * frame_.gradient[1][0] + x2 * frame_.gradient[1][1];
+    hatAtOrigin_[2] = x1 * frame_.gradient[2][0] + x2 * frame_.gradient[2][1];
     hatAtOrigin_[0] = 1.0 - hatAtOrigin_[1] - hatAtOrigin_[2];
     if (own_) {
       const auto isOwn = Batch::load_unaligned(own_->mask + lane_) > Batch(0.5);
@@ -120,11 +121,11 @@ class ClosedFormMoments {
     for (int c = 0; c < 4; ++c) three3_[c] = five3_[c] = Batch(0);
     for (int e = 0; e < 3; ++e) {
       const int to = (e + 1) % 3;
-      const double* n = t_.outward[e];
-      const double* t = t_.tangent[e];
+      const double* n = frame_.outward[e];
+      const double* t = frame_.tangent[e];
       const EdgeIntegrals edge(
           n[0] * rho_[e][0] + n[1] * rho_[e][1], d_, t[0] * rho_[e][0] + t[1] * rho_[e][1],
-          t[0] * rho_[to][0] + t[1] * rho_[to][1], r_[e], r_[to], t_.length[e]);
+          t[0] * rho_[to][0] + t[1] * rho_[to][1], r_[e], r_[to], frame_.length[e]);
       one0 = xsimd::fma(edge.h, edge.j0, one0);
       hk0 = xsimd::fma(edge.h, edge.k0, hk0);
       for (int i = 0; i < 2; ++i) {
@@ -195,15 +196,16 @@ class ClosedFormMoments {
     Batch half[3][3];  // local tensor times the frame's rows
     for (int i = 0; i < 3; ++i)
       for (int c = 0; c < 3; ++c)
-        half[i][c] = local[index[i][0]] * t_.axis1[c] + local[index[i][1]] * t_.axis2[c] +
+        half[i][c] = local[index[i][0]] * frame_.axis1[c] + local[index[i][1]] * frame_.axis2[c] +
                      local[index[i][2]] * t_.normal[c];
     for (int a = 0; a < 3; ++a)
       for (int b = a; b < 3; ++b)
         global[index[a][b]] =
-            t_.axis1[a] * half[0][b] + t_.axis2[a] * half[1][b] + t_.normal[a] * half[2][b];
+            frame_.axis1[a] * half[0][b] + frame_.axis2[a] * half[1][b] + t_.normal[a] * half[2][b];
   }
 
   const bem::PanelTriangle& t_;
+  const bem::TriangleFrame& frame_;
   const bem::OwnTriangle* own_;
   int lane_;
   Batch d_, rho_[3][2], r_[3], hatAtOrigin_[3];

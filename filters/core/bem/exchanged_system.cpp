@@ -75,7 +75,8 @@ class Assembler {
           if (!work[thread]) work[thread] = std::make_unique<InfluencePanels::Workspace>(panels_);
           panels_.compute(panel, *work[thread]);
           store(panel, *work[thread]);
-          rotation[thread] = std::max(rotation[thread], rotationResidual(panel, *work[thread]));
+          rotation[thread] =
+              std::max(rotation[thread], panels_.rotationResidual(panel, *work[thread]));
         },
         [&](int begun) { progress.report(double(begun) / panels_.panelCount(), "assemble"); });
     const double size = body_.points.colwise().norm().maxCoeff();
@@ -127,32 +128,6 @@ class Assembler {
         for (int lane = 0; lane < kLanes; ++lane) target[lane] += block.factor * more[lane];
       }
     }
-  }
-
-  /// Largest component of H (omega x r) over the panel's equations and three rotations: zero but
-  /// for the error of integration. An exterior domain leaves the rotation itself.
-  double rotationResidual(int panel, const InfluencePanels::Workspace& work) const {
-    double largest = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < 3; ++i) {
-        double sum[kLanes] = {};
-        for (int v = 0; v < body_.vertexCount(); ++v) {
-          const Eigen::Vector3d turned = Eigen::Vector3d::Unit(axis).cross(body_.points.col(v));
-          for (int j = 0; j < 3; ++j) {
-            const double* h = work.h(v, i, j);
-            for (int lane = 0; lane < kLanes; ++lane) sum[lane] += h[lane] * turned[j];
-          }
-        }
-        for (int lane = 0; lane < panels_.laneCount(panel); ++lane) {
-          double expected = 0;
-          for (const auto& term : scheme_.equations[panel * kLanes + lane].terms)
-            if (body_.exterior)
-              expected += term.weight *
-                          Eigen::Vector3d::Unit(axis).cross(scheme_.points[term.point].position)[i];
-          largest = std::max(largest, std::abs(sum[lane] - expected));
-        }
-      }
-    return largest;
   }
 
   /// Replaces the combinations of equations along the identities' weights by the identities:

@@ -20,6 +20,7 @@ class InfluencePanels {
   /// Keeps references to the body and the scheme.
   /// @param tolerance  of an equation as a whole, see choosePanelRules.
   InfluencePanels(const BodySurface& body, const CollocationScheme& scheme, double tolerance);
+  InfluencePanels(const InfluencePanels&) = delete;
 
   int panelCount() const { return (scheme_.equationCount() + kLanes - 1) / kLanes; }
   /// Equations of a panel: kLanes, fewer in the last one.
@@ -47,14 +48,17 @@ class InfluencePanels {
     friend class InfluencePanels;
     const InfluencePanels& panels_;
     AlignedBuffer<double> h_, g_;            // of the equations
-    AlignedBuffer<double> pointH_, pointG_;  // at kLanes points
-    std::vector<int> ownIndex_;
-    std::vector<OwnTriangle> own_;
+    AlignedBuffer<double> pointH_, pointG_;  // of a chunk, at kLanes points
+    std::vector<int> ownIndex_;              // of each triangle in the group at hand, or -1
   };
 
   /// Fills the workspace with a panel's rows of H and G. Safe from several threads, each with its
   /// own workspace.
   void compute(int panel, Workspace& work) const;
+
+  /// Largest component of H (omega x r) over a computed panel's equations and three rotations: zero
+  /// but for the error of integration. An exterior domain leaves the rotation itself.
+  double rotationResidual(int panel, const Workspace& work) const;
 
   /// A triangle of the body as the integration sees it.
   const PanelTriangle& triangle(int f) const { return triangles_[positionOfTriangle_[f]]; }
@@ -63,16 +67,32 @@ class InfluencePanels {
   int placeOf(int vertex) const { return placeOfVertex_[vertex]; }
 
  private:
-  bool computeAtPoints(int panel, Workspace& work) const;
-  void integratePoints(const std::vector<int>& points, Workspace& work, double* h, double* g) const;
-  void markOwnTriangles(const std::vector<int>& points, Workspace& work) const;
-  void closeByTranslation(const std::vector<int>& points, double* h) const;
+  struct PointGroup;
+  /// A run of triangles whose blocks stay in the second-level cache while all points of a panel
+  /// pass over them.
+  struct Chunk {
+    int firstTriangle, triangleCount;
+    std::vector<int> vertices, nodes;  // places of its blocks
+  };
+  static constexpr int kChunkTriangles = 512;
+
+  void cutIntoChunks();
+  bool isTakenAtPoints(int panel) const;
+  std::vector<PointGroup> groupPoints(int panel) const;
+  void findOwnTriangles(PointGroup& group) const;
+  static int pointOfLane(const PointGroup& group, int lane);
+  void integrate(const Chunk& chunk, const PointGroup& group, Workspace& work, double* h,
+                 double* g) const;
+  void closeByTranslation(const std::vector<PointGroup>& groups, double* h) const;
 
   const BodySurface& body_;
   const CollocationScheme& scheme_;
-  std::vector<PanelTriangle> triangles_;  // in spatial order
+  std::vector<PanelTriangle> triangles_;  // in spatial order, and
+  std::vector<TriangleFrame> frames_;     // theirs
+  std::vector<Chunk> chunks_;             // one where nothing is averaged
   std::vector<int> positionOfTriangle_;
   std::vector<int> placeOfVertex_, placeOfNode_;  // in the order in which the triangles meet them
+  Eigen::Matrix3Xd positions_;                    // of the vertices, in that order
   PanelRule nearRule_, farRule_;
 };
 

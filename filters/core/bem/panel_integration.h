@@ -20,20 +20,27 @@ struct PanelRule {
   double smallestDistance;    ///< from the centroid, in triangle radii, at which it is accurate
 };
 
-/// A triangle with everything that the integrals need, in non-dimensional coordinates.
+/// A triangle's plane, as closed forms need it, in non-dimensional coordinates.
+struct TriangleFrame {
+  double axis1[3], axis2[3];  ///< with the normal a right-handed frame; axis1 along the first edge
+  double planar[3][2];        ///< the vertices in that frame, relative to vertex 0
+  double tangent[3][2];       ///< of the edge from vertex k to k + 1, in the frame
+  double outward[3][2];       ///< in-plane normal of that edge
+  double length[3];           ///< of that edge
+  double gradient[3][2];      ///< of vertex k's hat function
+};
+
+/// A triangle as every point sees it, in non-dimensional coordinates: kept small, as a panel reads
+/// all of them.
 struct PanelTriangle {
   double vertex[3][3];
-  double axis1[3], axis2[3], normal[3];  ///< right-handed local frame; axis1 along the first edge
-  double planar[3][2];                   ///< the vertices in that frame, relative to vertex 0
-  double tangent[3][2];                  ///< of the edge from vertex k to k + 1, in the frame
-  double outward[3][2];                  ///< in-plane normal of that edge
-  double length[3];                      ///< of that edge
-  double gradient[3][2];                 ///< of vertex k's hat function
+  double normal[3];
   double centroid[3];
   double area;
-  double radius;        ///< largest distance from the centroid to a vertex
-  int vertexIndex[3];   ///< block of H to add to
-  int tractionNode[3];  ///< block of G to add to
+  double radius;               ///< largest distance from the centroid to a vertex
+  const TriangleFrame* frame;  ///< what only near points need
+  int vertexIndex[3];          ///< block of H to add to
+  int tractionNode[3];         ///< block of G to add to
 };
 
 /// Marks the lanes of a panel whose point lies on the triangle: barycentric coordinates there, and
@@ -67,13 +74,20 @@ struct PanelTask {
 /// cheapest rule that their distance admits, near and singular ones closed forms.
 void integratePanel(const PanelTask& task);
 
-/// equations[c][e] += sum over p of weights[p][e] * points[c][p], for c = 0 .. count - 1; the
-/// points' values are zero afterwards.
-/// @param weights    kLanes points by kLanes equations.
-/// @param points     count rows of kLanes points.
-/// @param equations  count rows of kLanes equations; overwritten, not added to, where `first` is
-/// set.
-void averagePoints(const double* weights, long count, bool first, double* points,
-                   double* equations);
+/// Blocks of equations from blocks at points, of `components` rows of kLanes values each:
+///   equations[places[b]][c][e] += sum over p of weights[p][e] points[b][c][p],
+///   sums[c][p] += sum over b of points[b][c][p];
+/// the points' values are zero afterwards.
+/// @param weights     kLanes points by kLanes equations.
+/// @param places      count places of blocks among those of the equations.
+/// @param components  9 or 6.
+void averageBlocks(const double* weights, const int* places, long count, int components,
+                   double* points, double* equations, double* sums);
+
+/// sums[s][c] = sum over v of m_s(v) h[v][c], for m = 1, x, y, z, in each of the kLanes rows.
+/// @param h          count blocks of 9 components of kLanes values.
+/// @param positions  x, y, z of each block's vertex.
+/// @param sums       4 by 9 by kLanes, overwritten.
+void sumBlocks(const double* h, long count, const double* positions, double* sums);
 
 }  // namespace palpate::bem

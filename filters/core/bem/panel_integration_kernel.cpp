@@ -16,17 +16,17 @@ using bem::PanelTask;
 using bem::PanelTriangle;
 constexpr int kWidth = static_cast<int>(Batch::size);
 
-/// Kelvin's kernels up to their constant factors: U = factorU * u, T = factorT * (t + skew).
-struct KernelValues {
-  Batch u[6];     ///< xx, xy, xz, yy, yz, zz
-  Batch t[6];     ///< symmetric part, likewise
-  Batch skew[3];  ///< xy, xz, yz
+/// Kelvin's kernels from a panel's points to a quadrature point, in parts: with s = r / r^3 times
+/// factorU and the lane's weight,
+///   U_ij = r_i s_j + isotropicU [i = j],
+///   T_ij = steep r_i s_j + isotropicT [i = j] + (s_i m_j - s_j m_i),  m along the normal.
+struct KernelParts {
+  Batch r[3], s[3], isotropicU, isotropicT, steep;
 };
 
-/// Where a panel's values of one vertex of a triangle go, and which lanes take part.
+/// Where a panel's values of one vertex of a triangle go.
 struct Blocks {
   double *h, *g;
-  Batch mask;  ///< 1 or 0
 };
 
 /// How the lanes of a panel integrate a triangle: a 1 in one of the three for each lane. The choice
@@ -48,12 +48,12 @@ class PanelKernel {
   /// @param mask  kLanes, 1 for the lanes that take part; nullptr for all.
   template <int Triples>
   void addByRule(const PanelTriangle& t, const PanelRule& rule, const double* mask) const {
-    constexpr bool hasCentroid = Triples == 2;
-    constexpr int count = 3 * Triples + hasCentroid;
+    constexpr int count = pointCount(Triples);
     double y[count][3];
     placePoints<Triples>(t, rule, y);
-    const double skewNormal[3] = {-(1 - 2 * nu_) * t.normal[0], -(1 - 2 * nu_) * t.normal[1],
-                                  -(1 - 2 * nu_) * t.normal[2]};
+    const HatSums<Triples> sums(rule);
+    const double shear = (1 - 2 * nu_) * factorT_ / factorU_;
+    const double skewNormal[3] = {-shear * t.normal[0], -shear * t.normal[1], -shear * t.normal[2]};
     // Lanes that take no part stand where the kernels are tame.
     const double aside[3] = {t.centroid[0] + 4 * t.radius * t.normal[0],
                              t.centroid[1] + 4 * t.radius * t.normal[1],
@@ -63,21 +63,31 @@ class PanelKernel {
       Batch px = Batch::load_unaligned(task_.x[0] + lane);
       Batch py = Batch::load_unaligned(task_.x[1] + lane);
       Batch pz = Batch::load_unaligned(task_.x[2] + lane);
+      Batch factor(factorU_ * t.area);
       if (mask) {
-        const auto taken = Batch::load_unaligned(mask + lane) > Batch(0.5);
+        const Batch weight = Batch::load_unaligned(mask + lane);
+        const auto taken = weight > Batch(0.5);
         px = xsimd::select(taken, px, Batch(aside[0]));
         py = xsimd::select(taken, py, Batch(aside[1]));
         pz = xsimd::select(taken, pz, Batch(aside[2]));
+        factor = factor * weight;
       }
       const Batch height = t.normal[0] * (t.vertex[0][0] - px) +
                            t.normal[1] * (t.vertex[0][1] - py) +
                            t.normal[2] * (t.vertex[0][2] - pz);
-      KernelValues values[count];
+      KernelParts parts[count];
       for (int q = 0; q < count; ++q)
-        evaluate(y[q][0] - px, y[q][1] - py, y[q][2] - pz, height, skewNormal, values[q]);
+        evaluate(y[q][0] - px, y[q][1] - py, y[q][2] - pz, height, factor, parts[q]);
+      Batch s[3][3];  // [component][hat]
+      for (int c = 0; c < 3; ++c) sums([&](int q) { return parts[q].s[c]; }, s[c]);
       Blocks blocks[3];
-      for (int k = 0; k < 3; ++k) blocks[k] = blocksOf(t, k, lane, mask);
-      addSums<Triples>(rule, values, t.area, blocks);
+      for (int k = 0; k < 3; ++k) blocks[k] = blocksOf(t, k, lane);
+      addOnDiagonal<Triples, 0>(sums, parts, blocks);
+      addOnDiagonal<Triples, 1>(sums, parts, blocks);
+      addOnDiagonal<Triples, 2>(sums, parts, blocks);
+      addOffDiagonal<Triples, 0, 1>(sums, parts, skewNormal, s, blocks);
+      addOffDiagonal<Triples, 0, 2>(sums, parts, skewNormal, s, blocks);
+      addOffDiagonal<Triples, 1, 2>(sums, parts, skewNormal, s, blocks);
     }
   }
 
@@ -86,28 +96,36 @@ class PanelKernel {
     const double shear = 1 - 2 * nu_;
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       if (mask && !anyOf(mask + lane)) continue;
+      const Batch weight = mask ? Batch::load_unaligned(mask + lane) : Batch(1);
+      const Batch forU = factorU_ * weight, forT = factorT_ * weight;
       const ClosedFormMoments moments(task_, t, own, lane);
       for (int k = 0; k < 3; ++k) {
         const Moments m = moments.ofHat(k);
-        KernelValues v;
         const Batch isotropicU = (3 - 4 * nu_) * (m.one[0] + m.one[3] + m.one[5]);
         const Batch isotropicT = shear * (m.five[0] + m.five[3] + m.five[5]);
-        for (int c = 0; c < 6; ++c) {
-          const bool diagonal = c == 0 || c == 3 || c == 5;
-          v.u[c] = diagonal ? m.one[c] + isotropicU : m.one[c];
-          v.t[c] = diagonal ? xsimd::fma(Batch(3), m.five[c], isotropicT) : 3.0 * m.five[c];
-        }
-        v.skew[0] = -shear * (m.three[0] * t.normal[1] - m.three[1] * t.normal[0]);
-        v.skew[1] = -shear * (m.three[0] * t.normal[2] - m.three[2] * t.normal[0]);
-        v.skew[2] = -shear * (m.three[1] * t.normal[2] - m.three[2] * t.normal[1]);
-        const Blocks blocks = blocksOf(t, k, lane, mask);
-        for (int c = 0; c < 6; ++c) addU(blocks, c, 1, v.u[c]);
-        for (int c = 0; c < 6; ++c) addT(blocks, c, 1, v.t[c], v.skew);
+        const Blocks blocks = blocksOf(t, k, lane);
+        int c = 0;
+        for (int i = 0; i < 3; ++i)
+          for (int j = i; j < 3; ++j, ++c) {
+            const Batch steep = 3.0 * m.five[c];
+            if (i == j) {
+              accumulate(blocks.g, c, forU * (m.one[c] + isotropicU));
+              accumulate(blocks.h, 4 * i, forT * (steep + isotropicT));
+            } else {
+              const Batch skew = shear * (m.three[j] * t.normal[i] - m.three[i] * t.normal[j]);
+              accumulate(blocks.g, c, forU * m.one[c]);
+              accumulate(blocks.h, 3 * i + j, forT * (steep + skew));
+              accumulate(blocks.h, 3 * j + i, forT * (steep - skew));
+            }
+          }
       }
     }
   }
 
  private:
+  /// Of a rule of one triple, or of two and the centroid.
+  static constexpr int pointCount(int triples) { return triples == 2 ? 7 : 3; }
+
   template <int Triples>
   static void placePoints(const PanelTriangle& t, const PanelRule& rule, double (*y)[3]) {
     for (int c = 0; c < 3; ++c) {
@@ -123,35 +141,27 @@ class PanelKernel {
 
   /// @param r       from the collocation points to a quadrature point.
   /// @param height  n . r.
+  /// @param factor  factorU times area and the lanes' weight.
   void evaluate(const Batch& rx, const Batch& ry, const Batch& rz, const Batch& height,
-                const double* skewNormal, KernelValues& v) const {
+                const Batch& factor, KernelParts& parts) const {
+    const double ratio = factorT_ / factorU_;
     const Batch r2 = xsimd::fma(rx, rx, xsimd::fma(ry, ry, rz * rz));
     const Batch inverse = inverseSquareRoot(r2);
-    const Batch inverse2 = inverse * inverse, inverse3 = inverse2 * inverse;
-    const Batch sx = rx * inverse3, sy = ry * inverse3, sz = rz * inverse3;
-    const Batch m[6] = {rx * sx, rx * sy, rx * sz, ry * sy, ry * sz, rz * sz};
-    const Batch isotropicU = (3 - 4 * nu_) * inverse;
-    v.u[0] = m[0] + isotropicU;
-    v.u[1] = m[1];
-    v.u[2] = m[2];
-    v.u[3] = m[3] + isotropicU;
-    v.u[4] = m[4];
-    v.u[5] = m[5] + isotropicU;
-    const Batch steep = (3.0 * height) * inverse2;
-    const Batch isotropicT = ((1 - 2 * nu_) * height) * inverse3;
-    v.t[0] = xsimd::fma(steep, m[0], isotropicT);
-    v.t[1] = steep * m[1];
-    v.t[2] = steep * m[2];
-    v.t[3] = xsimd::fma(steep, m[3], isotropicT);
-    v.t[4] = steep * m[4];
-    v.t[5] = xsimd::fma(steep, m[5], isotropicT);
-    v.skew[0] = xsimd::fms(sx, Batch(skewNormal[1]), sy * skewNormal[0]);
-    v.skew[1] = xsimd::fms(sx, Batch(skewNormal[2]), sz * skewNormal[0]);
-    v.skew[2] = xsimd::fms(sy, Batch(skewNormal[2]), sz * skewNormal[1]);
+    const Batch inverse2 = inverse * inverse, weighted = factor * inverse;
+    const Batch weighted3 = weighted * inverse2, slope = height * inverse2;
+    parts.r[0] = rx;
+    parts.r[1] = ry;
+    parts.r[2] = rz;
+    parts.s[0] = rx * weighted3;
+    parts.s[1] = ry * weighted3;
+    parts.s[2] = rz * weighted3;
+    parts.isotropicU = (3 - 4 * nu_) * weighted;
+    parts.isotropicT = ((1 - 2 * nu_) * ratio) * (slope * weighted);
+    parts.steep = (3 * ratio) * slope;
   }
 
-  /// Weights the values with the hat functions. On a triple (a, b, b) the sum over its points of
-  /// weight * hat_k * value is weight * (b * (sum of values) + (a - b) * value_k).
+  /// Weights values at a rule's points with the hat functions. On a triple (a, b, b) the sum over
+  /// its points of weight * hat_k * value is weight * (b * (sum of values) + (a - b) * value_k).
   template <int Triples>
   struct HatSums {
     double common[Triples], extra[Triples], centroid;
@@ -162,47 +172,58 @@ class PanelKernel {
         extra[i] = rule.weight[i] * (rule.near[i] - b);
       }
     }
-    template <class Get>
-    void operator()(const KernelValues* values, const Get& get, Batch* sum) const {
-      Batch base = common[0] * (get(values[0]) + get(values[1]) + get(values[2]));
+    /// @param valueAt  the value at point q of the rule.
+    template <class ValueAt>
+    void operator()(const ValueAt& valueAt, Batch* sum) const {
+      Batch value[pointCount(Triples)];
+      for (int q = 0; q < pointCount(Triples); ++q) value[q] = valueAt(q);
+      Batch base = common[0] * (value[0] + value[1] + value[2]);
       if constexpr (Triples == 2) {
-        base = xsimd::fma(Batch(common[1]), get(values[3]) + get(values[4]) + get(values[5]), base);
-        base = xsimd::fma(Batch(centroid), get(values[6]), base);
+        base = xsimd::fma(Batch(common[1]), value[3] + value[4] + value[5], base);
+        base = xsimd::fma(Batch(centroid), value[6], base);
       }
       for (int k = 0; k < 3; ++k) {
-        sum[k] = xsimd::fma(Batch(extra[0]), get(values[k]), base);
-        if constexpr (Triples == 2)
-          sum[k] = xsimd::fma(Batch(extra[1]), get(values[3 + k]), sum[k]);
+        sum[k] = xsimd::fma(Batch(extra[0]), value[k], base);
+        if constexpr (Triples == 2) sum[k] = xsimd::fma(Batch(extra[1]), value[3 + k], sum[k]);
       }
     }
   };
 
-  template <int Triples>
-  void addSums(const PanelRule& rule, const KernelValues* values, double area,
-               const Blocks* blocks) const {
-    const HatSums<Triples> sums(rule);
-    Batch sum[3], skew[3][3];
-    for (int c = 0; c < 6; ++c) {
-      sums(
-          values, [&](const KernelValues& v) { return v.u[c]; }, sum);
-      for (int k = 0; k < 3; ++k) addU(blocks[k], c, area, sum[k]);
-    }
-    for (int c = 0; c < 3; ++c) {
-      sums(
-          values, [&](const KernelValues& v) { return v.skew[c]; }, sum);
-      for (int k = 0; k < 3; ++k) skew[k][c] = sum[k];
-    }
-    for (int c = 0; c < 6; ++c) {
-      sums(
-          values, [&](const KernelValues& v) { return v.t[c]; }, sum);
-      for (int k = 0; k < 3; ++k) addT(blocks[k], c, area, sum[k], skew[k]);
+  template <int Triples, int I>
+  static void addOnDiagonal(const HatSums<Triples>& sums, const KernelParts* parts,
+                            const Blocks* blocks) {
+    constexpr int packed[3] = {0, 3, 5};
+    Batch u[3], t[3];
+    sums([&](int q) { return xsimd::fma(parts[q].r[I], parts[q].s[I], parts[q].isotropicU); }, u);
+    sums(
+        [&](int q) {
+          return xsimd::fma(parts[q].steep, parts[q].r[I] * parts[q].s[I], parts[q].isotropicT);
+        },
+        t);
+    for (int k = 0; k < 3; ++k) {
+      accumulate(blocks[k].g, packed[I], u[k]);
+      accumulate(blocks[k].h, 4 * I, t[k]);
     }
   }
 
-  Blocks blocksOf(const PanelTriangle& t, int k, int lane, const double* mask) const {
+  template <int Triples, int I, int J>
+  static void addOffDiagonal(const HatSums<Triples>& sums, const KernelParts* parts,
+                             const double* skewNormal, const Batch (*s)[3], const Blocks* blocks) {
+    constexpr int packed = I == 0 ? J : 4;
+    Batch u[3], t[3];
+    sums([&](int q) { return parts[q].r[I] * parts[q].s[J]; }, u);
+    sums([&](int q) { return parts[q].steep * (parts[q].r[I] * parts[q].s[J]); }, t);
+    for (int k = 0; k < 3; ++k) {
+      const Batch skew = xsimd::fms(s[I][k], Batch(skewNormal[J]), s[J][k] * skewNormal[I]);
+      accumulate(blocks[k].g, packed, u[k]);
+      accumulate(blocks[k].h, 3 * I + J, t[k] + skew);
+      accumulate(blocks[k].h, 3 * J + I, t[k] - skew);
+    }
+  }
+
+  Blocks blocksOf(const PanelTriangle& t, int k, int lane) const {
     return {task_.h + 9 * kLanes * static_cast<long>(t.vertexIndex[k]) + lane,
-            task_.g + 6 * kLanes * static_cast<long>(t.tractionNode[k]) + lane,
-            mask ? Batch::load_unaligned(mask + lane) : Batch(1)};
+            task_.g + 6 * kLanes * static_cast<long>(t.tractionNode[k]) + lane};
   }
   static bool anyOf(const double* mask) {
     double sum = 0;
@@ -210,25 +231,9 @@ class PanelKernel {
     return sum > 0;
   }
 
-  static void accumulate(double* block, int component, const Batch& factor, const Batch& value) {
+  static void accumulate(double* block, int component, const Batch& value) {
     double* target = block + component * kLanes;
-    xsimd::fma(factor, value, Batch::load_unaligned(target)).store_unaligned(target);
-  }
-  void addU(const Blocks& blocks, int c, double area, const Batch& value) const {
-    accumulate(blocks.g, c, factorU_ * area * blocks.mask, value);
-  }
-  /// Component c of the symmetric part, with the skew part where it is off the diagonal.
-  void addT(const Blocks& blocks, int c, double area, const Batch& symmetric,
-            const Batch* skew) const {
-    static constexpr int upper[6] = {0, 1, 2, 4, 5, 8}, lower[6] = {0, 3, 6, 4, 7, 8};
-    static constexpr int skewOf[6] = {-1, 0, 1, -1, 2, -1};
-    const Batch factor = factorT_ * area * blocks.mask;
-    if (skewOf[c] < 0) {
-      accumulate(blocks.h, upper[c], factor, symmetric);
-    } else {
-      accumulate(blocks.h, upper[c], factor, symmetric + skew[skewOf[c]]);
-      accumulate(blocks.h, lower[c], factor, symmetric - skew[skewOf[c]]);
-    }
+    (Batch::load_unaligned(target) + value).store_unaligned(target);
   }
 
   const PanelTask& task_;
@@ -276,23 +281,51 @@ void integratePanel(const PanelTask& task) {
   }
 }
 
-void averagePoints(const double* weights, long count, bool first, double* points,
-                   double* equations) {
+void averageBlocks(const double* weights, const int* places, long count, int components,
+                   double* points, double* equations, double* sums) {
   constexpr int batches = kLanes / kWidth;
   Batch weight[kLanes][batches];
   for (int p = 0; p < kLanes; ++p)
     for (int b = 0; b < batches; ++b)
       weight[p][b] = Batch::load_unaligned(weights + p * kLanes + b * kWidth);
-  for (long c = 0; c < count; ++c) {
-    double* source = points + c * kLanes;
-    double* target = equations + c * kLanes;
-    for (int b = 0; b < batches; ++b) {
-      Batch sum = first ? Batch(0) : Batch::load_unaligned(target + b * kWidth);
-      for (int p = 0; p < kLanes; ++p) sum = xsimd::fma(weight[p][b], Batch(source[p]), sum);
-      sum.store_unaligned(target + b * kWidth);
+  for (long block = 0; block < count; ++block)
+    for (int c = 0; c < components; ++c) {
+      double* source = points + (components * block + c) * kLanes;
+      double* target = equations + (components * static_cast<long>(places[block]) + c) * kLanes;
+      for (int b = 0; b < batches; ++b) {
+        Batch even = Batch::load_unaligned(target + b * kWidth), odd(0);
+        for (int p = 0; p < kLanes; p += 2) {
+          even = xsimd::fma(weight[p][b], Batch(source[p]), even);
+          odd = xsimd::fma(weight[p + 1][b], Batch(source[p + 1]), odd);
+        }
+        (even + odd).store_unaligned(target + b * kWidth);
+      }
+      for (int b = 0; b < batches; ++b) {
+        double* sum = sums + c * kLanes + b * kWidth;
+        (Batch::load_unaligned(sum) + Batch::load_unaligned(source + b * kWidth))
+            .store_unaligned(sum);
+        Batch(0).store_unaligned(source + b * kWidth);
+      }
     }
-    for (int b = 0; b < batches; ++b) Batch(0).store_unaligned(source + b * kWidth);
-  }
+}
+
+void sumBlocks(const double* h, long count, const double* positions, double* sums) {
+  for (int row = 0; row < 3; ++row)
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      const long start = 3 * row * kLanes + lane;
+      Batch sum[4][3];
+      for (auto& moment : sum)
+        for (Batch& component : moment) component = Batch(0);
+      for (long v = 0; v < count; ++v)
+        for (int j = 0; j < 3; ++j) {
+          const Batch value = Batch::load_unaligned(h + (9 * v + j) * kLanes + start);
+          sum[0][j] += value;
+          for (int c = 0; c < 3; ++c)
+            sum[1 + c][j] = xsimd::fma(value, Batch(positions[3 * v + c]), sum[1 + c][j]);
+        }
+      for (int m = 0; m < 4; ++m)
+        for (int j = 0; j < 3; ++j) sum[m][j].store_unaligned(sums + (9 * m + j) * kLanes + start);
+    }
 }
 
 }  // namespace palpate::PALPATE_SIMD_NAMESPACE

@@ -13,7 +13,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kRightBlock = 384;  ///< right-hand sides at a time
+constexpr int kRightBlock = 384;    ///< right-hand sides at a time
+constexpr int kRefinedBlock = 128;  ///< the same with refinement, which copies them
 constexpr double kFactorShare = 0.3;
 
 template <class Scalar>
@@ -85,9 +86,9 @@ SolveReport solveMixedInPlace(const AlignedBuffer<double>& matrix, int size, int
 
   Matrix<double> solution, residual;
   Matrix<float> correction;
-  for (int first = 0; first < columns; first += kRightBlock) {
+  for (int first = 0; first < columns; first += kRefinedBlock) {
     progress.report(kFactorShare + (1 - kFactorShare) * first / columns, "solve");
-    const int width = std::min(kRightBlock, columns - first);
+    const int width = std::min(kRefinedBlock, columns - first);
     Strided<double> block(right.data() + std::size_t(first) * stride, size, width,
                           Eigen::OuterStride<>(stride));
     solution = Matrix<double>::Zero(size, width);
