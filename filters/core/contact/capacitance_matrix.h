@@ -103,9 +103,9 @@ class CapacitanceMatrix {
 
   static constexpr double kLargestCondition = 1e13;  ///< beyond, a set is refused as singular
   static constexpr double kSmallestPivot = 1e-12;
-  static constexpr double kTaintedPivot = 1e-6;      ///< after it, removals cause a refactorisation
-  static constexpr double kLargestResidual = 1e-10;  ///< so does a larger residual
-  static constexpr int kCheckInterval = 32;          ///< updates between looks at the residual
+  static constexpr double kTaintedPivot = 1e-6;  ///< below it, each update looks at the residual
+  static constexpr double kLargestResidual = 1e-10;  ///< of updates, unless C is ill-conditioned
+  static constexpr int kCheckInterval = 32;          ///< else updates between such looks
 
   /// A block of up to three rows, without heap memory.
   using Pivot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
@@ -147,7 +147,8 @@ class CapacitanceMatrix {
   AlignedBuffer<double> scratch_;
   std::vector<int> nodeScratch_, pivotScratch_;
   AlignedBuffer<double> factorScratch_;
-  bool tainted_ = false;
+  bool tainted_ = false;      ///< updates may have lost digits
+  double freshResidual_ = 0;  ///< after the last refactorisation
   int updates_ = 0, refactorisations_ = 0;
 };
 

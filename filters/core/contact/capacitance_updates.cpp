@@ -212,10 +212,7 @@ bool CapacitanceMatrix::removeNode(int node) noexcept {
   if (!(pivot >= kSmallestPivot) && count < size()) return false;
   tainted_ = tainted_ || !(pivot >= kTaintedPivot);
   removeLast(cornerInverse);
-  if (tainted_)
-    refactor();
-  else
-    watchDrift();
+  watchDrift();
   return true;
 }
 
@@ -233,9 +230,17 @@ double CapacitanceMatrix::residual() noexcept {
   return (outerMap - zMap).norm() / zMap.norm();
 }
 
-/// Looks at the drift now and then and starts afresh from the stored matrix when it shows.
+/// Looks at the drift now and then, and after each update where digits may have been lost; starts
+/// afresh from the stored matrix when it shows.
 void CapacitanceMatrix::watchDrift() noexcept {
-  if (++updates_ % kCheckInterval == 0 && !(residual() <= kLargestResidual)) refactor();
+  if (++updates_ % kCheckInterval != 0 && !tainted_) return;
+  const bool isRegular = condition() < 1 / kTaintedPivot;
+  const double limit =
+      isRegular ? kLargestResidual : std::max(kLargestResidual, 4 * freshResidual_);
+  if (!(residual() <= limit))
+    refactor();
+  else
+    tainted_ = !isRegular;
 }
 
 /// The inverse from the stored matrix. @return false, with the inverse as it was, if the matrix is
@@ -254,7 +259,7 @@ bool CapacitanceMatrix::refactor() noexcept {
   std::copy_n(lu, std::size_t(stride_) * n, inverse_.data());
   for (int k = 0; k < n; ++k)
     for (int i = n; i < padded(n); ++i) column(inverse_, k)[i] = 0;
-  // What leaves an ill-conditioned matrix by an update leaves the loss of digits behind.
+  freshResidual_ = residual();
   tainted_ = !(condition() < 1 / kTaintedPivot);
   ++refactorisations_;
   return true;
