@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <Eigen/Geometry>
 #include <limits>
 
@@ -107,6 +108,45 @@ TEST(Reciprocity, EnergyOfAnyTractionIsKept) {
     const Eigen::VectorXd force = randomVectors(int(before.rows() / 3), random).reshaped();
     EXPECT_NEAR(force.dot(after * force) / force.dot(before * force), 1, 1e-13);
   }
+}
+
+TYPED_TEST(ReciprocityOf, WorkOfKeptForcesIsKeptUnlessAColumnIsMissing) {
+  for (const bool complete : {true, false}) {
+    Example<TypeParam> example;
+    std::mt19937 random(5);
+    Eigen::Matrix3Xd force = randomVectors(example.body.nodes, random);
+    std::vector<int> freeColumns;
+    for (int node : example.body.columns)
+      if (!example.info.conditions.isFixed(node)) freeColumns.push_back(node);
+    if (complete)
+      for (int node : example.info.conditions.freeNodes())
+        if (std::count(freeColumns.begin(), freeColumns.end(), node) == 0)
+          force.col(node).setZero();
+    const Eigen::VectorXd f = force(Eigen::all, freeColumns).reshaped();
+    const Eigen::MatrixXd before = example.forceCompliance();
+    palpate::makeReciprocal(example.matrix.data(), example.info.conditions,
+                            example.info.vertexAreas, example.body.columns, true, {force});
+    const Eigen::MatrixXd after = example.forceCompliance();
+    const double tolerance = 20 * std::numeric_limits<TypeParam>::epsilon();
+    EXPECT_LE(relativeDifference(after, after.transpose()), tolerance);
+    if (complete)
+      EXPECT_LE(relativeDifference(f.transpose() * after, f.transpose() * before), tolerance);
+    else
+      EXPECT_LE(relativeDifference(after, (before + before.transpose()) / 2), tolerance);
+  }
+}
+
+TEST(Reciprocity, UnitPressuresDoTheWorkOfTheChangeOfVolume) {
+  const auto mesh = icosphere(2).mesh();
+  const Eigen::Matrix3Xd force = unitPressures(*mesh).at(0);
+  EXPECT_LT(force.rowwise().sum().norm(), 1e-14);
+  double volume = 0;
+  for (int f = 0; f < mesh->triangleCount(); ++f) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) corners.col(k) = mesh->points().col(mesh->triangles()(k, f));
+    volume += corners.determinant() / 6;
+  }
+  EXPECT_NEAR(force.cwiseProduct(mesh->points()).sum(), 3 * volume, 1e-13);
 }
 
 TEST(Reciprocity, WithoutFreeColumnsThereIsNoDefect) {

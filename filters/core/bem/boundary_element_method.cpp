@@ -148,13 +148,17 @@ class Precomputation {
                         progress);
   }
 
-  /// Half of the digits at least must be left.
+  /// Half of a double's digits at least must be left, or a hundredth in float.
   static void requireRegular(double condition) {
-    const double largest = 1 / std::sqrt(double(std::numeric_limits<Scalar>::epsilon()));
+    constexpr bool isFloat = std::is_same_v<Scalar, float>;
+    const double epsilon = std::numeric_limits<Scalar>::epsilon();
+    const double largest = isFloat ? 0.01 / epsilon : 1 / std::sqrt(epsilon);
     if (condition < largest) return;
     std::ostringstream text;
-    text << "the boundary element system is nearly singular (condition number " << condition
-         << ", at most " << largest << "): the surface or its support is degenerate somewhere";
+    text << "the boundary element system has the condition number " << condition << ", above "
+         << largest << ": "
+         << (isFloat ? "too much for float precision, use double or mixed"
+                     : "the surface or its support is degenerate somewhere");
     throw std::runtime_error(text.str());
   }
 
@@ -276,8 +280,14 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
                 patchMatrix.data());
     matrix.truncate(block * info.columnNodes.size());
   }
+  // Until then the change of volume is not small enough to be lost, and a column does not depend on
+  // which others were asked for.
+  constexpr double nearlyIncompressible = 0.45;
+  std::vector<Eigen::Matrix3Xd> kept;
+  if (model.domain() == Domain::Interior && model.material().poissonRatio() > nearlyIncompressible)
+    kept = unitPressures(model.mesh());
   info.diagnostics.reciprocityDefect = makeReciprocal(
-      matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal);
+      matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal, kept);
   info.reciprocal = options.reciprocal;
   if (model.domain() == Domain::Interior) {
     const DenseGreensFunctions<Scalar> view(info, matrix.data(), patchMatrix.data(), nullptr);

@@ -14,6 +14,7 @@ namespace {
 
 struct Corner {
   int triangle, corner;
+  double share = 1;  ///< of the triangle that an equation stands for
 };
 
 std::vector<std::vector<Corner>> cornersOfVertices(const BodySurface& body) {
@@ -74,8 +75,8 @@ class EquationBuilder {
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
       for (int k = 0; k < 3; ++k)
         place += barycentric[k] * body_.points.col(body_.triangles(k, c.triangle));
-      equation.terms.push_back(
-          {static_cast<int>(scheme_.points.size()), body_.areas[c.triangle] / (3 * equation.area)});
+      equation.terms.push_back({static_cast<int>(scheme_.points.size()),
+                                c.share * body_.areas[c.triangle] / (3 * equation.area)});
       scheme_.points.push_back({place, {{c.triangle, barycentric}}});
     }
     scheme_.equations.push_back(std::move(equation));
@@ -85,8 +86,9 @@ class EquationBuilder {
   CollocationEquation standingFor(int v, const std::vector<Corner>& corners) const {
     CollocationEquation equation{{}, v, 0, Eigen::Vector3d::Zero()};
     for (const Corner& c : corners) {
-      equation.area += body_.areas[c.triangle] / 3;
-      equation.areaVector += body_.areas[c.triangle] / 3 * body_.normals.col(c.triangle);
+      const double area = c.share * body_.areas[c.triangle] / 3;
+      equation.area += area;
+      equation.areaVector += area * body_.normals.col(c.triangle);
     }
     return equation;
   }
@@ -135,12 +137,13 @@ CollocationScheme::CollocationScheme(const BodySurface& body, Collocation kindOf
         builder.addAverage(v);
       continue;
     }
-    for (int node : unknown) {  // triangles of no unknown patch go with the first one's
+    for (int node : unknown) {
       std::vector<Corner> over;
       for (const Corner& c : corners[v]) {
         const int other = body.nodes.ofCorner(c.corner, c.triangle);
-        const bool isElsewhere = std::count(unknown.begin(), unknown.end(), other) > 0;
-        if (other == node || (node == unknown.front() && !isElsewhere)) over.push_back(c);
+        if (other == node) over.push_back(c);
+        if (std::count(unknown.begin(), unknown.end(), other) == 0)
+          over.push_back({c.triangle, c.corner, 1.0 / double(unknown.size())});
       }
       builder.addWithin(v, over);
     }

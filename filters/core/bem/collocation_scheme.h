@@ -56,8 +56,9 @@ struct TractionUnknown {
 /// There is one equation for each unknown. Averaged collocation takes the mean of the boundary
 /// integral equation under the vertex's hat, by the rule (vertices + 9 centroid) / 12 on each
 /// triangle, which is exact for quadratics. Where k >= 2 tractions of a vertex are unknown there
-/// are k equations, each a mean over points inside the triangles of one patch, in both kinds of
-/// collocation: the equation at the vertex itself could not tell them apart.
+/// are k equations, each a mean over points inside the triangles of one patch and a k-th of those
+/// where nothing is unknown, in both kinds of collocation: the equation at the vertex itself could
+/// not tell them apart.
 struct CollocationScheme {
   CollocationScheme(const BodySurface& body, Collocation kind);
 

@@ -104,8 +104,9 @@ class CapacitanceMatrix {
   static constexpr double kLargestCondition = 1e13;  ///< beyond, a set is refused as singular
   static constexpr double kSmallestPivot = 1e-12;
   static constexpr double kTaintedPivot = 1e-6;  ///< below it, each update looks at the residual
-  static constexpr double kLargestResidual = 1e-10;  ///< of updates, unless C is ill-conditioned
-  static constexpr int kCheckInterval = 32;          ///< else updates between such looks
+  static constexpr int kCheckInterval = 32;      ///< else updates between such looks
+  /// Of updates, beyond which they start afresh; up to 100 times that where C is ill-conditioned.
+  static constexpr double kLargestResidual = 1e-10;
 
   /// A block of up to three rows, without heap memory.
   using Pivot = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;

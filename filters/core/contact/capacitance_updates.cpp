@@ -234,9 +234,12 @@ double CapacitanceMatrix::residual() noexcept {
 /// afresh from the stored matrix when it shows.
 void CapacitanceMatrix::watchDrift() noexcept {
   if (++updates_ % kCheckInterval != 0 && !tainted_) return;
-  const bool isRegular = condition() < 1 / kTaintedPivot;
+  const double conditionNumber = condition();
+  const bool isRegular = conditionNumber < 1 / kTaintedPivot;
+  // Border after border loses some digits more than a factorisation with pivots does.
+  const double natural = std::min(conditionNumber * 3e-15, 100 * kLargestResidual);
   const double limit =
-      isRegular ? kLargestResidual : std::max(kLargestResidual, 4 * freshResidual_);
+      isRegular ? kLargestResidual : std::max({kLargestResidual, natural, 4 * freshResidual_});
   if (!(residual() <= limit))
     refactor();
   else

@@ -7,15 +7,77 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <type_traits>
 
 #include "mesh/surface_mesh.h"
 
 namespace palpate {
 
+namespace {
+
+/// What plain symmetrisation takes from f^T S, and how it is given back: S' = mean + (r v^T + v
+/// r^T) / size with r = (S^T f - S f) / 2 and v = f / area.
+class KeptForce {
+ public:
+  /// @param columns  the free nodes' positions among columnNodes.
+  template <class Scalar>
+  KeptForce(const Eigen::Matrix3Xd& force, const Scalar* matrix,
+            const BoundaryConditions& conditions, const Eigen::VectorXd& areas,
+            const std::vector<int>& columnNodes, const std::vector<int>& columns)
+      : force_(Eigen::Matrix3Xd::Zero(3, areas.size())), spread_(force_), lost_(force_) {
+    for (int c : columns) force_.col(columnNodes[c]) = force.col(columnNodes[c]);
+    for (int node = 0; node < areas.size(); ++node) {
+      if (conditions.isFixed(node)) continue;
+      isComplete_ = isComplete_ && force_.col(node) == force.col(node);
+      spread_.col(node) = force_.col(node) / areas[node];
+    }
+    size_ = force_.cwiseProduct(spread_).sum();
+    isComplete_ = isComplete_ && size_ > 0;
+    if (!isComplete_) return;
+    for (int c : columns)
+      for (int j = 0; j < 3; ++j) {
+        const int node = columnNodes[c];
+        const Eigen::VectorXd column = columnOf(matrix, c, j).template cast<double>();
+        lost_(j, node) += force_.reshaped().dot(column) / areas[node] / 2;
+        lost_.reshaped() -= column * (spread_(j, node) / 2);
+      }
+    for (int node = 0; node < areas.size(); ++node)
+      if (conditions.isFixed(node)) lost_.col(node).setZero();
+  }
+
+  template <class Scalar>
+  void giveBack(Scalar* matrix, const Eigen::VectorXd& areas, const std::vector<int>& columnNodes,
+                const std::vector<int>& columns) const {
+    if (!isComplete_) return;
+    for (int c : columns)
+      for (int j = 0; j < 3; ++j) {
+        const int node = columnNodes[c];
+        columnOf(matrix, c, j) += ((lost_.reshaped() * force_(j, node) +
+                                    spread_.reshaped() * (lost_(j, node) * areas[node])) /
+                                   size_)
+                                      .template cast<Scalar>();
+      }
+  }
+
+ private:
+  template <class Scalar>
+  auto columnOf(Scalar* matrix, int c, int j) const {
+    using Vector = Eigen::Matrix<std::remove_const_t<Scalar>, Eigen::Dynamic, 1>;
+    using Column = std::conditional_t<std::is_const_v<Scalar>, const Vector, Vector>;
+    return Eigen::Map<Column>(matrix + force_.size() * (3 * Eigen::Index(c) + j), force_.size());
+  }
+
+  Eigen::Matrix3Xd force_, spread_, lost_;  // 3 by #nodes, zero where fixed
+  double size_ = 0;
+  bool isComplete_ = true;
+};
+
+}  // namespace
+
 template <class Scalar>
 double makeReciprocal(Scalar* matrix, const BoundaryConditions& conditions,
                       const Eigen::VectorXd& areas, const std::vector<int>& columnNodes,
-                      bool symmetrise) {
+                      bool symmetrise, const std::vector<Eigen::Matrix3Xd>& kept) {
   using Block = Eigen::Map<Eigen::Matrix<Scalar, 3, 3>, 0, Eigen::OuterStride<>>;
   const Eigen::Index rows = 3 * Eigen::Index(areas.size());
   std::vector<int> columns;
@@ -24,6 +86,11 @@ double makeReciprocal(Scalar* matrix, const BoundaryConditions& conditions,
   const auto block = [&](int row, int column) {
     return Block(matrix + 3 * columnNodes[row] + 3 * rows * column, Eigen::OuterStride<>(rows));
   };
+
+  std::vector<KeptForce> forces;
+  if (symmetrise)
+    for (const Eigen::Matrix3Xd& force : kept)
+      forces.emplace_back(force, matrix, conditions, areas, columnNodes, columns);
 
   double antisymmetric = 0, all = 0;
   constexpr std::size_t tile = 32;  // pairs of tiles of rows and columns stay in cache
@@ -44,13 +111,24 @@ double makeReciprocal(Scalar* matrix, const BoundaryConditions& conditions,
           pq = (mean * aq).template cast<Scalar>();
           qp = (mean.transpose() * ap).template cast<Scalar>();
         }
+  for (const KeptForce& force : forces) force.giveBack(matrix, areas, columnNodes, columns);
   return all > 0 ? std::sqrt(antisymmetric / all) : 0;
 }
 
 template double makeReciprocal(double*, const BoundaryConditions&, const Eigen::VectorXd&,
-                               const std::vector<int>&, bool);
+                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&);
 template double makeReciprocal(float*, const BoundaryConditions&, const Eigen::VectorXd&,
-                               const std::vector<int>&, bool);
+                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&);
+
+std::vector<Eigen::Matrix3Xd> unitPressures(const SurfaceMesh& mesh) {
+  std::vector<Eigen::Matrix3Xd> forces(mesh.bodyCount(),
+                                       Eigen::Matrix3Xd::Zero(3, mesh.vertexCount()));
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    for (int v : mesh.triangles().col(f))
+      forces[mesh.bodyOfVertex(v)].col(v) +=
+          mesh.triangleAreas()[f] / 3 * mesh.triangleNormals().col(f);
+  return forces;
+}
 
 namespace {
 
