@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -221,7 +222,76 @@ TEST(SurfaceStiffness, OfABodyThatYieldsTheWrongWayIsRefused) {
       [&] {
         maskedVertexStiffness(*greens, 3, {{3}, Eigen::VectorXd::Ones(1)});
       },
-      "the compliance of vertex 3 is not positive definite (eigenvalue -"));
+      "the compliance at vertex 3 is not positive definite: the surface is inside out there"));
+}
+
+bool atTheEdge(const Eigen::Vector3d& x) {
+  return x.x() < 1e-9;
+}
+
+/// M of a mask.
+Eigen::Matrix3d meanCompliance(const GreensFunctions& greens, const VertexMask& mask) {
+  Eigen::MatrixXd blocks(3 * mask.nodes.size(), 3 * mask.nodes.size());
+  greens.gather(nodeList(mask.nodes), nodeList(mask.nodes), blocks.data());
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < mask.nodes.size(); ++i)
+    for (std::size_t j = 0; j < mask.nodes.size(); ++j)
+      mean += greens.vertexArea(mask.nodes[i]) * mask.density[i] * mask.density[j] *
+              blocks.block<3, 3>(3 * i, 3 * j);
+  return (mean + mean.transpose()) / 2;
+}
+
+TEST(SurfaceStiffness, OfThinWallsIsNowhereMoreThanTwiceThatOfTheMean) {
+  const Shape plate = box({1, 1, 0.1}, {8, 8, 1});
+  const ElasticModel model = makeModel(plate, atTheEdge, 1, 0.3);
+  const auto greens = computeGreens(model, {});
+  int limited = 0;
+  for (const double radius : {0.2, 0.4}) {
+    const SurfaceStiffness stiffness(greens, plate.mesh(), MaskShape::Linear, radius);
+    for (int v : model.conditions().freeNodes()) {
+      const Eigen::Matrix3d& k = stiffness.elastic(v);
+      EXPECT_EQ(k, k.transpose());
+      const Eigen::LLT<Eigen::Matrix3d> mean(meanCompliance(*greens, stiffness.mask(v)));
+      ASSERT_EQ(mean.info(), Eigen::Success);
+      const Eigen::Matrix3d root = mean.matrixL();
+      const Eigen::Vector3d ratios =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(root.transpose() * k * root).eigenvalues();
+      EXPECT_GT(ratios[0], 0);
+      EXPECT_LE(ratios[2], 2 + 1e-6);
+      EXPECT_EQ(stiffness.isLimited(v), ratios[2] > 2 - 1e-6);
+      limited += stiffness.isLimited(v);
+    }
+  }
+  EXPECT_GT(limited, 0);
+}
+
+TEST(SurfaceStiffness, OfWallsFarThinnerThanEdgesIsPositiveDefiniteOrRefusedVertexByVertex) {
+  const Shape plate = box({1, 1, 0.05}, {8, 8, 1});
+  for (const double nu : {-0.5, 0.0}) {
+    const ElasticModel model = makeModel(plate, atTheEdge, 1, nu);
+    const SurfaceStiffness stiffness(computeGreens(model, {}), plate.mesh(), MaskShape::Linear,
+                                     0.2);
+    int unserved = 0;
+    const std::vector<int> free = model.conditions().freeNodes();
+    for (int v : free) {
+      if (stiffness.elastic(v).hasNaN()) {
+        ++unserved;
+        EXPECT_TRUE(isRefused<std::runtime_error>([&] { stiffness.requireServed(v); },
+                                                  "the compliance at vertex "));
+      } else {
+        EXPECT_EQ(Eigen::LLT<Eigen::Matrix3d>(stiffness.elastic(v)).info(), Eigen::Success);
+      }
+    }
+    EXPECT_GT(unserved, 0) << nu;
+    EXPECT_LT(unserved, int(free.size())) << nu;
+  }
+}
+
+TEST_F(SurfaceStiffnessOfASphere, IsNowhereLimitedOnAResolvedBody) {
+  for (const double radius : {0.0, 0.3, 0.6}) {
+    const SurfaceStiffness stiffness(raw_->greens, raw_->mesh, MaskShape::Linear, radius);
+    for (int v = 0; v < raw_->mesh->vertexCount(); ++v) EXPECT_FALSE(stiffness.isLimited(v)) << v;
+  }
 }
 
 TEST_F(SurfaceStiffnessOfASphere, WhatMakesNoSenseIsRefusedWithASentence) {

@@ -25,8 +25,9 @@ PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
   std::map<int, double> density;
   for (int k = 0; k < 3; ++k) {
     if (point.barycentric[k] == 0) continue;
-    const VertexMask& mask = stiffness_->mask(mesh.triangles()(k, point.triangle));
-    stiffness_->greens().requireColumns(nodeList(mask.nodes));
+    const int vertex = mesh.triangles()(k, point.triangle);
+    stiffness_->requireServed(vertex);
+    const VertexMask& mask = stiffness_->mask(vertex);
     for (std::size_t j = 0; j < mask.nodes.size(); ++j)
       density[mask.nodes[j]] += point.barycentric[k] * mask.density[j];
   }

@@ -31,11 +31,14 @@ struct ContactResponse {
 /// allocates nothing.
 class PointContact {
  public:
-  /// @throws std::invalid_argument if the triangle or the barycentric coordinates are out of range.
+  /// @throws std::invalid_argument if the triangle or the barycentric coordinates are out of range;
+  ///         as maskedVertexStiffness if a vertex of the point has no stiffness.
   PointContact(std::shared_ptr<const SurfaceStiffness> stiffness, const SurfacePoint& point);
 
-  /// Force of a prescribed displacement, f = K^H(x) u^H. The elastic displacement that goes with it
-  /// is smaller than the haptic one where the surface is stiffer than k_Rigid.
+  /// Force of a prescribed displacement, f = K^H(x) u^H (eq. 34). The elastic displacement that
+  /// goes with it differs from the haptic one between vertices, where K is interpolated, at
+  /// vertices by what symmetrising takes from the compliance, and where the surface is stiffer than
+  /// k_Rigid.
   ContactResponse displace(const Eigen::Vector3d& displacement) const noexcept;
 
   /// Displacement under a prescribed force, u^H = K^H(x)^-1 f.

@@ -5,46 +5,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace palpate {
+
+namespace {
+
+/// A symmetric matrix, nowhere below a positive definite one.
+struct Raised {
+  Eigen::Matrix3d matrix;
+  bool isAbove;  ///< whether nothing had to be raised
+};
+
+/// @param floor  left out of account where it is not positive definite itself.
+Raised raisedTo(const Eigen::Matrix3d& floor, const Eigen::Matrix3d& matrix) {
+  const Eigen::LLT<Eigen::Matrix3d> factors(floor);
+  if (factors.info() != Eigen::Success) return {matrix, true};
+  const Eigen::Matrix3d half = factors.matrixL().solve(matrix);
+  const Eigen::Matrix3d relative = factors.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen((relative + relative.transpose()) / 2);
+  if (eigen.eigenvalues()[0] >= 1) return {matrix, true};
+  const Eigen::Matrix3d root = factors.matrixL() * eigen.eigenvectors() *
+                               eigen.eigenvalues().cwiseMax(1).cwiseSqrt().asDiagonal();
+  return {root * root.transpose(), false};
+}
+
+/// Displacements of the mask's nodes under its unit forces, 3 by 3 #nodes.
+Eigen::Matrix3Xd maskResponse(const GreensFunctions& greens, const VertexMask& mask) {
+  const int count = static_cast<int>(mask.nodes.size());
+  const auto rows = nodeList(mask.nodes);
+  Eigen::MatrixXd columns(3 * count, 3), sum = Eigen::MatrixXd::Zero(3 * count, 3);
+  for (int j = 0; j < count; ++j) {
+    greens.gather(rows, rows.segment(j, 1), columns.data());
+    sum += mask.density[j] * columns;
+  }
+  Eigen::Matrix3Xd response(3, 3 * count);
+  for (int i = 0; i < count; ++i) response.middleCols<3>(3 * i) = sum.middleRows<3>(3 * i);
+  return response;
+}
+
+constexpr double kLeastShare = 0.5;  ///< of M in the served compliance
+
+Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
+
+}  // namespace
 
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
                                       const VertexMask& mask) {
   greens.requireColumns(nodeList(mask.nodes));
-  Eigen::Matrix3Xd blocks(3, 3 * mask.nodes.size());
-  greens.gather(Eigen::Map<const Eigen::VectorXi>(&vertex, 1), nodeList(mask.nodes), blocks.data());
-  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
-  for (std::size_t j = 0; j < mask.nodes.size(); ++j)
-    compliance += mask.density[j] * blocks.middleCols<3>(3 * j);
-
-  const Eigen::Matrix3d symmetric = (compliance + compliance.transpose()) / 2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
-  if (!(eigen.eigenvalues()[0] > 0)) {
-    std::ostringstream text;
-    text << "the compliance of vertex " << vertex << " is not positive definite (eigenvalue "
-         << eigen.eigenvalues()[0] << " m/N): the mesh is too coarse or inside out there";
-    throw std::runtime_error(text.str());
+  const Eigen::Matrix3Xd response = maskResponse(greens, mask);
+  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero(), mean = compliance, apart = compliance;
+  for (std::size_t i = 0; i < mask.nodes.size(); ++i) {
+    const int node = mask.nodes[i];
+    const double share = greens.vertexArea(node) * mask.density[i];
+    mean += share * response.middleCols<3>(3 * i);
+    if (node == vertex) compliance = response.middleCols<3>(3 * i);
+    const Eigen::Map<const Eigen::VectorXi> self(&node, 1);
+    Eigen::Matrix3d own;
+    greens.gather(self, self, own.data());
+    apart += share * mask.density[i] * own;
   }
-  const Eigen::Matrix3d stiffness = eigen.eigenvectors() *
-                                    eigen.eigenvalues().cwiseInverse().asDiagonal() *
-                                    eigen.eigenvectors().transpose();
-  return {(stiffness + stiffness.transpose()) / 2,
-          (compliance - compliance.transpose()).norm() / compliance.norm()};
+  const Raised least = raisedTo(symmetricPart(apart), symmetricPart(mean));
+  const Raised served = raisedTo(kLeastShare * least.matrix, symmetricPart(compliance));
+  if (Eigen::LLT<Eigen::Matrix3d>(served.matrix).info() != Eigen::Success)
+    throw std::runtime_error("the compliance at vertex " + std::to_string(vertex) +
+                             " is not positive definite: the surface is inside out there, or its "
+                             "walls are far thinner than its edges are long");
+  return {symmetricPart(served.matrix.inverse()),
+          (compliance - compliance.transpose()).norm() / compliance.norm(), !served.isAbove};
 }
-
-namespace {
-
-bool hasColumns(const GreensFunctions& greens, const VertexMask& mask) {
-  return std::all_of(mask.nodes.begin(), mask.nodes.end(),
-                     [&](int node) { return greens.hasColumn(node); });
-}
-
-}  // namespace
 
 SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape,
@@ -65,21 +101,26 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   masks_.resize(n);
   hapticRatio_.assign(n, 1);
   asymmetry_.assign(n, 0);
+  limited_.assign(n, false);
   std::vector<int> served;
   double largest = 0;
   for (int v = 0; v < n; ++v) {
     if (v % 64 == 0) progress.report(double(v) / n, "stiffness");
     if (greens_->isFixed(v)) continue;
     masks_[v] = masks.at(v);
-    if (!hasColumns(*greens_, masks_[v])) continue;
-    served.push_back(v);
-    const VertexStiffness result = maskedVertexStiffness(*greens_, v, masks_[v]);
-    elastic_[v] = result.stiffness;
-    asymmetry_[v] = result.asymmetry;
-    largest = std::max(largest, result.stiffness.norm());
+    try {
+      const VertexStiffness result = maskedVertexStiffness(*greens_, v, masks_[v]);
+      served.push_back(v);
+      elastic_[v] = result.stiffness;
+      asymmetry_[v] = result.asymmetry;
+      limited_[v] = result.limited;
+      largest = std::max(largest, result.stiffness.norm());
+    } catch (const std::exception&) {
+      // requireServed says why to whoever asks for it.
+    }
   }
   const std::vector<int> free = greens_->info().conditions.freeNodes();
-  if (served.empty() && !free.empty()) greens_->requireColumns(nodeList(masks_[free.back()].nodes));
+  if (served.empty() && !free.empty()) requireServed(free.back());
   // |K^R|_F = sqrt(3) k_Rigid.
   if (rigidStiffness_ == 0) rigidStiffness_ = largest / std::sqrt(3.0);
   for (int v : greens_->info().conditions.fixedNodes())
@@ -87,6 +128,10 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   for (int v : served)
     hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
   progress.report(1, "stiffness");
+}
+
+void SurfaceStiffness::requireServed(int vertex) const {
+  if (elastic_[vertex].hasNaN()) maskedVertexStiffness(*greens_, vertex, masks_[vertex]);
 }
 
 Eigen::Matrix3d SurfaceStiffness::elasticAt(int triangle,

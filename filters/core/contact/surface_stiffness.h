@@ -15,25 +15,34 @@ namespace palpate {
 
 /// The compliance of a masked vertex, u_i = B f with B = sum over j of rho_j Xi_ij (eq. 32), and
 /// the stiffness that is served: the inverse of its symmetric part.
+///
+/// B is no energy's second derivative: on thin or coarse bodies its symmetric part may be far from
+/// what resists the force, or indefinite. The compliance of the mean displacement under the same
+/// mask, M = sum over i of a_i rho_i times that of row i, always is one. In no direction is the
+/// served compliance less than half of M; where the mesh resolves a body, vertices yield more than
+/// their surroundings and nothing changes. M in turn is at least what the mask's nodes yield one by
+/// one, the sum of a_i rho_i^2 Xi_ii.
 struct VertexStiffness {
   Eigen::Matrix3d stiffness;  ///< K^E, N/m, symmetric positive definite
   double asymmetry;           ///< |B - B^T|_F / |B|_F before symmetrising
+  bool limited;               ///< whether half of M was the more compliant in some direction
 };
 
-/// @param mask  of a free vertex.
-/// @throws std::invalid_argument if a column is missing; std::runtime_error if the compliance is
-/// not
-///         positive definite, as on a surface that is inside out or too coarse.
+/// @param mask  of a free vertex, the vertex among its nodes.
+/// @throws std::invalid_argument if a column is missing; std::runtime_error if the compliance
+///         is not positive definite all the same, as on a surface that is inside out or far too
+///         coarse.
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
                                       const VertexMask& mask);
 
 /// Stiffnesses of all vertices, and by interpolation of every point of the surface ([JP01] sections
-/// 6.2-6.4). Where columns that a vertex's mask needs were not computed, its stiffness is NaN.
+/// 6.2-6.4). Where maskedVertexStiffness throws (its mask needs columns that were not computed, or
+/// the compliance is not positive definite) a vertex's stiffness is NaN.
 class SurfaceStiffness {
  public:
   /// @param rigidStiffness  k_Rigid of eq. 33 (N/m): the stiffness of fixed vertices, and the most
   ///                        that the haptic stiffness shows; 0 for the stiffest elastic vertex.
-  /// @throws as maskedVertexStiffness if no vertex has its columns; std::invalid_argument for a
+  /// @throws as maskedVertexStiffness if no vertex has a stiffness; std::invalid_argument for a
   ///         rigid stiffness that is negative or not finite, or for another surface's Green's
   ///         functions; Aborted.
   SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
@@ -42,6 +51,9 @@ class SurfaceStiffness {
 
   const GreensFunctions& greens() const { return *greens_; }
   const SurfaceMesh& mesh() const { return *mesh_; }
+
+  /// @throws as maskedVertexStiffness if the vertex has no stiffness.
+  void requireServed(int vertex) const;
 
   /// K_i: K^E where the vertex is free, k_Rigid times identity where it is fixed (eq. 32-33). N/m.
   const Eigen::Matrix3d& elastic(int vertex) const { return elastic_[vertex]; }
@@ -53,6 +65,8 @@ class SurfaceStiffness {
   const VertexMask& mask(int vertex) const { return masks_[vertex]; }
   /// Asymmetry of a vertex's compliance before symmetrising; 0 where fixed.
   double asymmetry(int vertex) const { return asymmetry_[vertex]; }
+  /// Whether a vertex's stiffness is that of the mean under its mask in some direction.
+  bool isLimited(int vertex) const { return limited_[vertex]; }
   double rigidStiffness() const { return rigidStiffness_; }
 
   /// K(x) of eq. 34 at a point of a triangle; vertices without weight need not be served.
@@ -67,6 +81,7 @@ class SurfaceStiffness {
   double rigidStiffness_;
   std::vector<Eigen::Matrix3d> elastic_;
   std::vector<double> hapticRatio_, asymmetry_;
+  std::vector<bool> limited_;
   std::vector<VertexMask> masks_;
 };
 

@@ -17,6 +17,7 @@ constexpr const char* PressureMask = "PressureMask"; // 1/m^2
 constexpr const char* Stiffness = "Stiffness";       // 9, row by row, N/m
 constexpr const char* StiffnessNorm = "StiffnessNorm";           // Frobenius, N/m
 constexpr const char* StiffnessAsymmetry = "StiffnessAsymmetry"; // before symmetrising, relative
+constexpr const char* StiffnessLimited = "StiffnessLimited"; // 1 where that of the mask's mean limits it
 constexpr const char* HapticRatio = "HapticRatio";               // |K^H| / |K^E|
 
 // Cell data.

@@ -37,18 +37,20 @@ void vtkSurfaceStiffness::Compute(vtkPolyData* input, vtkPolyData* output, vtkIn
   matrices->SetName(arrays::Stiffness);
   matrices->SetNumberOfComponents(9);
   matrices->SetNumberOfTuples(count);
-  Eigen::VectorXd norm(count), asymmetry(count), ratio(count);
+  Eigen::VectorXd norm(count), asymmetry(count), limited(count), ratio(count);
   for (int v = 0; v < count; ++v)
   {
     const Eigen::Matrix3d& k = stiffness.elastic(v);
     matrices->SetTypedTuple(v, k.data()); // symmetric: rows are columns
     norm[v] = k.norm();
     asymmetry[v] = stiffness.asymmetry(v);
+    limited[v] = stiffness.isLimited(v);
     ratio[v] = stiffness.hapticRatio(v);
   }
   output->GetPointData()->AddArray(matrices);
   convert::setPointNumbers(output, arrays::StiffnessNorm, norm);
   convert::setPointNumbers(output, arrays::StiffnessAsymmetry, asymmetry);
+  convert::setPointNumbers(output, arrays::StiffnessLimited, limited);
   convert::setPointNumbers(output, arrays::HapticRatio, ratio);
   convert::setPointNumbers(output, arrays::VertexArea, served.mesh->vertexAreas());
 }
