@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From VTK's error events to Python's exceptions."""
 
+import signal
+import threading
 from contextlib import contextmanager
 
 
@@ -31,13 +33,43 @@ def silenced(algorithm):
             each.RemoveObserver(tag)
 
 
+@contextmanager
+def deferred_interrupts(interrupted=lambda: None):
+    """Keeps Ctrl-C from raising in the block and lets it count after it.
+
+    VTK ends the whole process when an observer raises KeyboardInterrupt. `interrupted` is called when
+    the signal is noticed, which is whenever the interpreter runs: in an observer, or at the end.
+    """
+    previous = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(previous):
+        yield
+        return
+    noticed = []
+
+    def note(number, frame):
+        noticed.append((number, frame))
+        interrupted()
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if noticed:
+        previous(*noticed[0])
+        raise KeyboardInterrupt
+
+
 def run(algorithm, progress=None):
     """Updates a filter and returns its output.
 
-    Raises `Error` with the filter's sentence, `Aborted` if `progress` returned False, or what
-    `progress` raised.
+    Raises `Error` with the filter's sentence, `Aborted` if `progress` returned False, what `progress`
+    raised, or KeyboardInterrupt after a Ctrl-C, which ends the filter's work at its next report.
     """
     stopped = []
+
+    def abort():
+        algorithm.SetAbortExecute(1)
 
     def report(*_):
         try:
@@ -47,13 +79,13 @@ def run(algorithm, progress=None):
         except BaseException as raised:  # carried over VTK's C++ frames
             stopped.append(raised)
         if stopped:
-            algorithm.SetAbortExecute(1)
+            abort()
 
-    tag = algorithm.AddObserver("ProgressEvent", report) if progress else None
-    with silenced(algorithm):
+    # Without a callback, too, something of Python's must run at times to notice Ctrl-C.
+    tag = algorithm.AddObserver("ProgressEvent", report if progress else lambda *_: None)
+    with deferred_interrupts(abort), silenced(algorithm):
         algorithm.Update()
-    if tag is not None:
-        algorithm.RemoveObserver(tag)
+    algorithm.RemoveObserver(tag)
     if stopped:
         raise stopped[0]
     if algorithm.GetFailureMessage():

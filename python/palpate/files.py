@@ -5,7 +5,7 @@
 import os
 from pathlib import Path
 
-from .errors import Error, silenced
+from .errors import Error, deferred_interrupts, silenced
 from .PalpateIO import vtkElasticSurfaceReader, vtkElasticSurfaceWriter
 
 
@@ -34,7 +34,7 @@ def read(path):
     """
     reader = vtkElasticSurfaceReader()
     reader.SetFileName(os.fspath(path))
-    with silenced(reader):
+    with deferred_interrupts(), silenced(reader):
         reader.Update()
     if reader.GetFailureMessage():
         raise Error(reader.GetFailureMessage())
@@ -65,7 +65,7 @@ def write(model, path):
     22
     """
     writer = vtkElasticSurfaceWriter()
-    with silenced(writer):
+    with deferred_interrupts(), silenced(writer):
         if not writer.Write(model, os.fspath(path)):
             raise Error(writer.GetFailureMessage())
 

@@ -2,7 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the functions of the package compute."""
 
+import signal
+import subprocess
+import sys
 import tempfile
+import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -150,6 +155,43 @@ class Precompute(unittest.TestCase):
 
         with self.assertRaises(KeyError):
             palpate.precompute(sphere(2), 1e4, 0.3, fixed=lower_cap(sphere(2)), progress=broken)
+
+
+INTERRUPTED = """
+import signal, palpate
+def mine(*arguments):
+    signal.default_int_handler(*arguments)
+signal.signal(signal.SIGINT, mine)
+surface = palpate.refine(palpate.read(palpate.example("kidney")), 4)
+print("begin", flush=True)
+try:
+    palpate.precompute(surface, None, None, progress={progress})
+except KeyboardInterrupt:
+    print("caught", signal.getsignal(signal.SIGINT) is mine, flush=True)
+"""
+
+
+class Interruption(unittest.TestCase):
+    def test_ctrl_c_stops_the_work_and_raises_keyboard_interrupt(self):
+        for progress in ("None", "lambda fraction, stage: None"):
+            process = subprocess.Popen([sys.executable, "-c", INTERRUPTED.format(progress=progress)],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(process.stdout.readline(), "begin\n")
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            sent = time.monotonic()
+            printed, errors = process.communicate(timeout=120)
+            self.assertEqual((process.returncode, printed), (0, "caught True\n"), errors)
+            self.assertEqual(errors, "")
+            self.assertLess(time.monotonic() - sent, 5)  # the whole work takes far longer
+
+    def test_handlers_are_left_alone_in_other_threads(self):
+        before, models = signal.getsignal(signal.SIGINT), []
+        thread = threading.Thread(target=lambda: models.append(sphere_model(1)))
+        thread.start()
+        thread.join()
+        self.assertEqual(len(models), 1)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
 
 
 class Solve(unittest.TestCase):
