@@ -11,7 +11,7 @@ from vtkmodules.vtkFiltersCore import vtkStripper
 
 import palpate
 from palpate.arrays import as_vtk
-from support.surfaces import (copy_of, failure_of, points_of, polydata, quad_cube, sphere, sphere_model,
+from support.surfaces import (copy_of, cube, failure_of, points_of, polydata, quad_cube, sphere, sphere_model,
                               triangles_of)
 
 
@@ -147,6 +147,18 @@ class Refinement(unittest.TestCase):
         self.assertFalse(fine.GetFieldData().HasArray("MeshFingerprint"))
         self.assertFalse(fine.GetPointData().HasArray("VertexArea"))
         self.assertTrue(fine.GetFieldData().HasArray("YoungsModulus"))
+
+    def test_patches_are_inherited_if_they_were_given_and_found_anew_if_not(self):
+        surface = cube(2)
+        model = palpate.precompute(surface, 1, 0.3, fixed=points_of(surface)[:, 2] == 0)
+        fine = self.refined(model)
+        self.assertFalse(fine.GetCellData().HasArray("SmoothPatch"))
+        self.assertFalse(fine.GetFieldData().HasArray("SmoothAngle"))
+        mine = np.arange(surface.GetNumberOfCells()) % 3
+        given = copy_of(model)
+        given.GetCellData().AddArray(as_vtk(mine, "SmoothPatch", 1, np.int32))
+        self.assertEqual(np.bincount(palpate.array(self.refined(given), "SmoothPatch")).tolist(),
+                         (4 * np.bincount(mine)).tolist())
 
     def test_the_limit_is_smooth(self):
         # Angles between neighbouring triangles halve with each level.

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import palpate
-from support.surfaces import cube, lower_cap, points_of, sphere, sphere_model, triangles_of
+from support.surfaces import copy_of, cube, lower_cap, points_of, sphere, sphere_model, triangles_of
 
 
 def columns(model):
@@ -70,6 +70,16 @@ class Precompute(unittest.TestCase):
             palpate.array(first, "SmoothPatch"), "SmoothPatch", 1, np.int32))
         given = palpate.precompute(surface, 1, 0.3, fixed=fixed, smooth_angle=180)
         self.assertEqual(np.unique(palpate.array(given, "SmoothPatch")).size, 6)
+
+    def test_patches_given_on_a_model_count_though_it_was_computed_with_others(self):
+        surface = cube(2)
+        fixed = points_of(surface)[:, 2] == 0
+        model = copy_of(palpate.precompute(surface, 1, 0.3, fixed=fixed))
+        mine = np.arange(surface.GetNumberOfCells()) % 3
+        model.GetCellData().AddArray(palpate.arrays.as_vtk(mine, "SmoothPatch", 1, np.int32))
+        again = palpate.precompute(model, 1, 0.3)
+        self.assertTrue((palpate.array(again, "SmoothPatch") == mine).all())
+        self.assertFalse(again.GetFieldData().HasArray("SmoothAngle"))
 
     def test_float_and_mixed_precision_agree_with_double(self):
         surface = sphere(2)

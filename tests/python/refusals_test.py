@@ -171,6 +171,14 @@ class Problems(Refusals):
         for angle in (-1, 181, np.nan):
             self.precompute_refused("angle", sphere(1), smooth_angle=angle)
 
+    def test_smooth_patches_that_are_no_integers_are_named(self):
+        for value in (np.nan, 0.5, 2.0**31, -np.inf):
+            surface = sphere(1)
+            patches = np.zeros(80)
+            patches[7] = value
+            surface.GetCellData().AddArray(as_vtk(patches, "SmoothPatch", 1))
+            self.precompute_refused("the smooth patch of triangle 7 must be a whole number", surface)
+
     def test_values_that_are_no_numbers_are_refused(self):
         self.precompute_refused("Young's modulus must be a number, not NaN", sphere(1), young=np.nan)
         self.precompute_refused("Poisson's ratio must be a number, not NaN", sphere(1), poisson=np.nan)

@@ -180,6 +180,18 @@ int vertexNumber(double value, vtkIdType count, const std::string& what, vtkIdTy
   return static_cast<int>(value);
 }
 
+int wholeNumber(double value, const std::string& what, vtkIdType index)
+{
+  if (!(std::abs(value) <= std::numeric_limits<int>::max() && value == std::floor(value)))
+  {
+    std::ostringstream text;
+    text << what << index << " must be a whole number of at most "
+         << std::numeric_limits<int>::max() << ", not " << std::setprecision(17) << value;
+    throw std::invalid_argument(text.str());
+  }
+  return static_cast<int>(value);
+}
+
 bool hasField(vtkDataObject* data, const char* name)
 {
   return data->GetFieldData() && data->GetFieldData()->GetAbstractArray(name);

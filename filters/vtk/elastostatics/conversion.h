@@ -31,6 +31,8 @@ void setSurface(vtkPolyData* surface, const Eigen::Matrix3Xd& points, const Eige
 /// A vertex number that an array gives as a floating-point value.
 /// @throws unless it is a whole number from 0 to count - 1; the sentence begins with `what` and `index`.
 int vertexNumber(double value, vtkIdType count, const std::string& what, vtkIdType index);
+/// The same for any integer.
+int wholeNumber(double value, const std::string& what, vtkIdType index);
 
 bool hasField(vtkDataObject* data, const char* name);
 /// A number of one-tuple field data.

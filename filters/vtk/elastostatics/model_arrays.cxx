@@ -45,7 +45,7 @@ Eigen::VectorXi storedPatches(vtkPolyData* surface)
   Eigen::VectorXi patches(array->GetNumberOfTuples());
   for (vtkIdType i = 0; i < patches.size(); ++i)
   {
-    patches[i] = static_cast<int>(array->GetComponent(i, 0));
+    patches[i] = wholeNumber(array->GetComponent(i, 0), "the smooth patch of triangle ", i);
   }
   return patches;
 }
@@ -207,7 +207,8 @@ std::vector<PatchColumn> patchColumnsOf(vtkPolyData* surface)
   {
     const int node = vertexNumber(
       array->GetComponent(i, 0), surface->GetNumberOfPoints(), "the patch column ", i);
-    columns.push_back({ node, static_cast<int>(array->GetComponent(i, 1)) });
+    columns.push_back(
+      { node, wholeNumber(array->GetComponent(i, 1), "the patch of patch column ", i) });
   }
   return columns;
 }
@@ -245,17 +246,22 @@ std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface)
   return mesh;
 }
 
-bool hasGivenPatches(vtkPolyData* surface)
+bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh)
 {
-  return surface->GetCellData()->GetArray(arrays::SmoothPatch) &&
-    !hasField(surface, arrays::SmoothAngle);
+  const Eigen::VectorXi stored = storedPatches(surface);
+  if (stored.size() == 0 || !hasField(surface, arrays::SmoothAngle))
+  {
+    return stored.size() > 0;
+  }
+  const double angle = fieldNumber(surface, arrays::SmoothAngle, "compute the patches again");
+  return !(angle >= 0 && angle <= 180) || stored != findSmoothPatches(mesh, angle);
 }
 
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 {
   const auto mesh = soundMeshOf(surface);
   Eigen::VectorXi patches =
-    hasGivenPatches(surface) ? storedPatches(surface) : findSmoothPatches(*mesh, smoothAngle);
+    hasGivenPatches(surface, *mesh) ? storedPatches(surface) : findSmoothPatches(*mesh, smoothAngle);
   const bool exterior = domain == Domain::Exterior;
   return ElasticModel(mesh, materialOf(surface),
     BoundaryConditions(boundaryTypesOf(surface, exterior)), std::move(patches), domain);

@@ -7,6 +7,7 @@
 #include "conversion.h"
 #include "model_arrays.h"
 
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -80,7 +81,11 @@ void vtkBoundaryElementGreensFunctions::Compute(
     palpate::computeBoundaryElementGreensFunctions(model, options,
       [this](double fraction, const char* stage)
       { return this->ReportProgress(fraction, stage); }));
-  if (!palpate::convert::hasGivenPatches(input))
+  if (palpate::convert::hasGivenPatches(input, model.mesh()))
+  {
+    output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
+  }
+  else
   {
     palpate::convert::setFieldNumber(output, palpate::arrays::SmoothAngle, this->SmoothAngle);
   }

@@ -17,8 +17,6 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -122,12 +120,9 @@ public:
   bool IsDisplacement(vtkIdType i) const { return !this->Type || this->Type->GetComponent(i, 0) != 0; }
   int GetZone(vtkIdType i) const
   {
-    const double zone = this->ZoneNumber ? this->ZoneNumber->GetComponent(i, 0) : 0;
-    if (!(std::abs(zone) <= std::numeric_limits<int>::max()))
-    {
-      throw std::invalid_argument("the zone of constraint " + std::to_string(i) + " is not a number");
-    }
-    return static_cast<int>(zone);
+    return this->ZoneNumber
+      ? convert::wholeNumber(this->ZoneNumber->GetComponent(i, 0), "the zone of constraint ", i)
+      : 0;
   }
   Eigen::Vector3d GetValue(vtkIdType i) const
   {

@@ -6,9 +6,11 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "mesh/loop_subdivision.h"
+#include "model_arrays.h"
 #include "progress.h"
 
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -22,6 +24,25 @@ void vtkLoopRefinement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n";
 }
 
+namespace
+{
+/// Patches that were found on the coarse surface are to be found anew; given ones are inherited.
+void removeFoundPatches(vtkPolyData* input, vtkPolyData* output)
+{
+  namespace convert = palpate::convert;
+  if (!convert::hasField(input, palpate::arrays::SmoothAngle))
+  {
+    return;
+  }
+  output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
+  const palpate::SurfaceMesh mesh(convert::pointsOf(input), convert::trianglesOf(input));
+  if (!convert::hasGivenPatches(input, mesh))
+  {
+    output->GetCellData()->RemoveArray(palpate::arrays::SmoothPatch);
+  }
+}
+} // namespace
+
 void vtkLoopRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
   namespace convert = palpate::convert;
@@ -29,6 +50,7 @@ void vtkLoopRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInfo
   {
     return;
   }
+  removeFoundPatches(input, output);
   convert::removeGreensFunctions(output);
   for (const char* name : { palpate::arrays::VertexArea, palpate::arrays::PressureMask,
          palpate::arrays::Stiffness, palpate::arrays::StiffnessNorm,
