@@ -144,6 +144,22 @@ class Refusals(unittest.TestCase):
             fixed, BoundaryType=[0] * fixed.size, Traction=np.zeros((fixed.size, 3)))))
         self.assertIn("rigid motion", sentence)
 
+    def test_nodes_constrained_twice_are_named(self):
+        free, fixed = by_height(1)[0], int(np.argmin(points_of(sphere(2))[:, 2]))
+        model = model_with_all_columns()
+        for node, kind in ((free, 1), (free, 0), (fixed, 1), (fixed, 0)):
+            for directions in ([(0, 0, 0)] * 2, [(0, 0, 1)] * 2):
+                sentence = failure_of(solver(model, table(
+                    [node] * 2, Displacement=[(0, 0, 1e-2)] * 2, Traction=[(0, 0, 1)] * 2,
+                    BoundaryType=[kind] * 2, Direction=directions)))
+                self.assertEqual(sentence,
+                                 f"node {node} is constrained twice along the same direction")
+        for node, kind in ((free, 0), (fixed, 1)):
+            sentence = failure_of(solver(model, table(
+                [node] * 2, Displacement=[(0, 0, 1e-2)] * 2, Traction=[(0, 0, 1)] * 2,
+                BoundaryType=[kind] * 2, Direction=[(0, 0, 1), (0, 1, 1)])))
+            self.assertIn(f"node {node} is constrained along directions that are not", sentence)
+
     def test_arrays_of_other_shapes_are_named(self):
         self.assertIn("'Displacement' must have 3 components, not 2",
                       failure_of(solver(sphere_model(1), table([0], Displacement=[(0, 0)]))))

@@ -229,6 +229,13 @@ class Contacts(Refusals):
         node = int(palpate.greens_function_nodes(model)[0])
         self.refused(f"node {node}", palpate.solve, model, [node, node], [(0, 0, 1), (0, 0, 2)])
 
+    def test_a_fixed_node_moved_twice_is_refused(self):
+        surface = sphere(1)
+        model = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), columns=range(42))
+        node = int(np.flatnonzero(lower_cap(surface))[0])
+        self.refused(f"node {node} is constrained twice", palpate.solve, model, [node, node],
+                     [(0, 0, 0.01), (0, 0, 0.01)])
+
     def test_columns_that_were_not_computed_are_named(self):
         surface = sphere(1)
         model = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), columns=[3])

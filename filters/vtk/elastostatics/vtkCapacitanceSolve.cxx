@@ -17,6 +17,7 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -197,8 +198,7 @@ struct Problem
       }
       if (greens.isFixed(node) == table.IsDisplacement(i))
       {
-        this->Values.given.col(node) +=
-          direction.isZero(0) ? value : direction * direction.dot(value) / direction.squaredNorm();
+        this->AddGiven(node, value, direction);
         continue;
       }
       if (direction.isZero(0))
@@ -221,6 +221,29 @@ struct Problem
     }
     this->Values.prescribed = Eigen::Map<Eigen::VectorXd>(prescribed.data(), prescribed.size());
   }
+
+private:
+  /// Components add up to the vector that they are given of if they are at right angles.
+  void AddGiven(int node, const Eigen::Vector3d& value, const Eigen::Vector3d& direction)
+  {
+    const Eigen::Vector3d along = direction.normalized();
+    std::vector<Eigen::Vector3d>& others = this->GivenAlong[node];
+    for (const Eigen::Vector3d& other : others)
+    {
+      const double overlap = along.isZero(0) || other.isZero(0) ? 1 : std::abs(along.dot(other));
+      if (overlap > 1e-9)
+      {
+        throw std::invalid_argument("node " + std::to_string(node) +
+          (overlap > 1 - 1e-9
+              ? " is constrained twice along the same direction"
+              : " is constrained along directions that are not at right angles to each other"));
+      }
+    }
+    others.push_back(along);
+    this->Values.given.col(node) += along.isZero(0) ? value : along * along.dot(value);
+  }
+
+  std::map<int, std::vector<Eigen::Vector3d>> GivenAlong; // zero for the whole vector
 };
 
 Eigen::Matrix3Xd triangleTractionsOf(vtkPolyData* surface, const std::string& name)

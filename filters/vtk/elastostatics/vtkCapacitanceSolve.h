@@ -11,7 +11,8 @@
  * - `Traction` (3, Pa): prescribed at a free vertex (load) or at a fixed one that is released;
  * - `BoundaryType` (optional): 1 the displacement is prescribed, 0 the traction. Default 1;
  * - `Direction` (3, optional): only the component along this vector is switched, as in frictionless
- *   contact; zero for the whole vector;
+ *   contact; zero for the whole vector. No two at a vertex may be the same, and what moves a fixed or
+ *   loads a free one must be at right angles;
  * - `Zone` (int, optional): the contact that the vertex belongs to; default 0.
  *
  * Output: the surface with `Displacement` and `Traction` at all vertices, and the field arrays
