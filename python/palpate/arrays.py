@@ -57,7 +57,9 @@ def greens_functions(model):
         Xi of James & Pai 2001, eq. 13: 3n rows by 3m columns, one block of three rows a vertex
         (displacement in metres where it is free, traction in pascals where it is fixed) and one block
         of three columns for each of the m vertices of `greens_function_nodes` (response to a unit
-        traction where free, to a unit displacement where fixed). A view, not a copy.
+        traction where free, to a unit displacement where fixed). A view, not a copy. It holds for the
+        field `GreensFunctionYoungsModulus`, which differs from `YoungsModulus` where that was changed
+        after the computation.
 
     Examples
     --------

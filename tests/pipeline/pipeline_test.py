@@ -89,6 +89,55 @@ class StockFilters(unittest.TestCase):
         chain.normals.Update()
         self.assertEqual([c.count for c in counts.values()], [1, 2, 3, 4])
 
+    def test_another_youngs_modulus_alone_scales_the_same_greens_functions(self):
+        chain = Chain(palpate.example("kidney"))
+        matrix = lambda: chain.bem.GetOutput().GetFieldData().GetArray("GreensFunctions")
+        results = []
+        for young in (8e3, 24e3):
+            chain.conditions.SetYoungsModulus(young)
+            chain.contact.Update()
+            results.append((matrix(), *(palpate.array(chain.contact.GetOutput(), name)[0].copy() for
+                            name in ("ContactForce", "RockingCompliance", "YoungsModulus"))))
+        (first, force, rocking, _), (second, other_force, other_rocking, young) = results
+        self.assertIs(first, second)
+        self.assertEqual(young, 24e3)
+        # The same products in another order: rounding.
+        self.assertLess(np.abs(other_force - 3 * force).max(), 1e-14 * np.abs(other_force).max())
+        self.assertAlmostEqual(other_rocking, rocking / 3, delta=1e-14 * rocking)
+        fresh = palpate.precompute(chain.refinement.GetOutput(), 24e3, 0.45)
+        pressed = palpate.press(fresh, (0, 0, 0.03), displacement=(0, 0, -0.005), radius=0.015)
+        # Another factorisation: rounding times the condition number of about 1e3.
+        self.assertLess(np.abs(palpate.array(pressed, "ContactForce")[0] - other_force).max(),
+                        1e-11 * np.abs(force).max())
+
+    def test_anything_but_youngs_modulus_computes_the_greens_functions_again(self):
+        chain = Chain(palpate.example("kidney"))
+        columns = palpate.arrays.as_ids([3], "columns")
+        seen = []
+        for change in (lambda: None, lambda: chain.conditions.SetPoissonRatio(0.4),
+                       lambda: chain.conditions.AddFixedHalfSpace((0, 0, 0), (0, 0, 1)),
+                       chain.bem.SetDomainToExterior,
+                       lambda: chain.bem.SetTolerance(1e-5), lambda: chain.bem.SetSmoothAngle(5),
+                       lambda: chain.bem.SetColumnNodes(columns),
+                       lambda: (columns.SetValue(0, 7), columns.Modified()),
+                       lambda: chain.refinement.SetNumberOfLevels(2)):
+            change()
+            chain.bem.Update()
+            seen.append(chain.bem.GetOutput().GetFieldData().GetArray("GreensFunctions"))
+            self.assertIsNot(seen[-1], None)
+        self.assertEqual(len(set(seen)), len(seen))
+
+    def test_a_name_set_again_executes_nothing_again(self):
+        for make, name in ((palpate.vtkReferenceBoundaryConditions, "FixedArrayName"),
+                           (palpate.vtkCapacitanceSolve, "TriangleTractionArrayName")):
+            algorithm = make()
+            getattr(algorithm, "Set" + name)("Mine")
+            before = algorithm.GetMTime()
+            getattr(algorithm, "Set" + name)("Mine")
+            self.assertEqual(algorithm.GetMTime(), before)
+            getattr(algorithm, "Set" + name)(None)
+            self.assertGreater(algorithm.GetMTime(), before)
+
     def test_stock_writer_and_reader_keep_every_bit(self):
         model = sphere_model(1)
         with tempfile.TemporaryDirectory() as folder:

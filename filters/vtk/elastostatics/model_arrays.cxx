@@ -10,6 +10,7 @@
 #include "mesh/smooth_patches.h"
 
 #include "vtkCellData.h"
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -270,7 +271,6 @@ ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 void setGreensFunctions(
   vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result)
 {
-  removeGreensFunctions(surface);
   const GreensFunctionsInfo& info = result.info;
   const int rows = 3 * model.mesh().vertexCount();
   if (result.floatMatrix.size() > 0)
@@ -313,6 +313,23 @@ void setGreensFunctions(
     patches->InsertNextValue(patch);
   }
   surface->GetCellData()->AddArray(patches);
+}
+
+void shareGreensFunctions(vtkPolyData* from, vtkPolyData* surface, double youngsModulus)
+{
+  removeGreensFunctions(surface);
+  for (int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::FIELD })
+  {
+    vtkFieldData* shared = from->GetAttributesAsFieldData(type);
+    for (int i = 0; i < shared->GetNumberOfArrays(); ++i)
+    {
+      surface->GetAttributesAsFieldData(type)->AddArray(shared->GetAbstractArray(i));
+    }
+  }
+  const std::string cure = "compute the Green's functions again";
+  const double rocking = fieldNumber(from, arrays::RockingCompliance, cure);
+  const double ratio = fieldNumber(from, arrays::GreensFunctionYoungsModulus, cure) / youngsModulus;
+  setFieldNumber(surface, arrays::RockingCompliance, rocking > 0 ? rocking * ratio : rocking);
 }
 
 ServedModel servedModelOf(vtkPolyData* surface)

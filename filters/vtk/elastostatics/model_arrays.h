@@ -31,6 +31,11 @@ bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh);
 /// Adds Green's functions with their provenance and diagnostics. Takes over their memory.
 void setGreensFunctions(vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result);
 
+/// Gives a surface the Green's functions that setGreensFunctions added to another, without copying, in
+/// place of its own.
+/// @param youngsModulus  of the surface, by which the diagnostics that depend on it are scaled.
+void shareGreensFunctions(vtkPolyData* from, vtkPolyData* surface, double youngsModulus);
+
 /// A surface with the Green's functions that it carries, ready to serve; the matrix is not copied.
 struct ServedModel
 {

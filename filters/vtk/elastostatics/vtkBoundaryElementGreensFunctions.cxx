@@ -9,14 +9,23 @@
 
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
-
+#include <cstdint>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkBoundaryElementGreensFunctions);
+
+/// Green's functions, and what they were computed from but for Young's modulus, which only scales them.
+struct vtkBoundaryElementGreensFunctions::Computed
+{
+  std::uint64_t Fingerprint;
+  vtkMTimeType Time; // of the filter's settings
+  vtkNew<vtkPolyData> Arrays;
+};
 
 vtkBoundaryElementGreensFunctions::vtkBoundaryElementGreensFunctions() = default;
 vtkBoundaryElementGreensFunctions::~vtkBoundaryElementGreensFunctions() = default;
@@ -57,9 +66,35 @@ vtkMTimeType vtkBoundaryElementGreensFunctions::GetMTime()
 void vtkBoundaryElementGreensFunctions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
-  const palpate::ElasticModel model = palpate::convert::modelOf(input, this->SmoothAngle,
+  namespace arrays = palpate::arrays;
+  namespace convert = palpate::convert;
+  const palpate::ElasticModel model = convert::modelOf(input, this->SmoothAngle,
     this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+  const vtkMTimeType time = this->GetMTime();
+  if (!this->Kept || this->Kept->Fingerprint != model.fingerprint() || this->Kept->Time != time)
+  {
+    this->Kept.reset();
+    std::unique_ptr<Computed> computed(new Computed{ model.fingerprint(), time, {} });
+    convert::setGreensFunctions(computed->Arrays, model,
+      palpate::computeBoundaryElementGreensFunctions(model,
+        this->OptionsFor(input->GetNumberOfPoints()), [this](double fraction, const char* stage)
+        { return this->ReportProgress(fraction, stage); }));
+    this->Kept = std::move(computed);
+  }
+  convert::shareGreensFunctions(this->Kept->Arrays, output, model.material().youngsModulus());
+  if (convert::hasGivenPatches(input, model.mesh()))
+  {
+    output->GetFieldData()->RemoveArray(arrays::SmoothAngle);
+  }
+  else
+  {
+    convert::setFieldNumber(output, arrays::SmoothAngle, this->SmoothAngle);
+  }
+}
 
+palpate::BoundaryElementOptions vtkBoundaryElementGreensFunctions::OptionsFor(
+  vtkIdType vertexCount) const
+{
   palpate::BoundaryElementOptions options;
   options.precision = static_cast<palpate::Precision>(this->Precision);
   options.collocation =
@@ -71,22 +106,11 @@ void vtkBoundaryElementGreensFunctions::Compute(
   for (vtkIdType i = 0; this->ColumnNodes && i < this->ColumnNodes->GetNumberOfValues(); ++i)
   {
     options.columns.push_back(palpate::convert::vertexNumber(
-      static_cast<double>(this->ColumnNodes->GetValue(i)), input->GetNumberOfPoints(), "column ", i));
+      static_cast<double>(this->ColumnNodes->GetValue(i)), vertexCount, "column ", i));
   }
   if (this->ColumnNodes && options.columns.empty())
   {
     throw std::invalid_argument("the list of columns to compute is empty");
   }
-  palpate::convert::setGreensFunctions(output, model,
-    palpate::computeBoundaryElementGreensFunctions(model, options,
-      [this](double fraction, const char* stage)
-      { return this->ReportProgress(fraction, stage); }));
-  if (palpate::convert::hasGivenPatches(input, model.mesh()))
-  {
-    output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
-  }
-  else
-  {
-    palpate::convert::setFieldNumber(output, palpate::arrays::SmoothAngle, this->SmoothAngle);
-  }
+  return options;
 }

@@ -7,7 +7,9 @@
  * The input is a closed triangle surface with the point array `BoundaryType` and the field data
  * `YoungsModulus` and `PoissonRatio` (vtkReferenceBoundaryConditions). The output carries, besides, the
  * field arrays `GreensFunctions`, `GreensFunctionNodes`, provenance and diagnostics (array_names.h),
- * and is all that the other filters need: it can be written to a .vtp file and read again.
+ * and is all that the other filters need: it can be written to a .vtp file and read again. Where only
+ * Young's modulus has changed since the last execution, the same arrays are handed on: they hold for
+ * `GreensFunctionYoungsModulus`, and who uses them scales them to `YoungsModulus`.
  *
  * Method: collocation of the boundary integral equation with linear displacements and tractions on
  * flat triangles; D. L. James and D. K. Pai, "A unified treatment of elastostatic contact simulation
@@ -20,7 +22,13 @@
 #include "vtkElastostaticAlgorithm.h"
 #include "vtkSmartPointer.h" // for the columns
 
+#include <memory> // for what was computed
+
 class vtkIdTypeArray;
+namespace palpate
+{
+struct BoundaryElementOptions;
+}
 
 class PALPATEELASTOSTATICS_EXPORT vtkBoundaryElementGreensFunctions : public vtkElastostaticAlgorithm
 {
@@ -144,6 +152,9 @@ protected:
   void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
 
 private:
+  struct Computed;
+  palpate::BoundaryElementOptions OptionsFor(vtkIdType vertexCount) const;
+
   vtkBoundaryElementGreensFunctions(const vtkBoundaryElementGreensFunctions&) = delete;
   void operator=(const vtkBoundaryElementGreensFunctions&) = delete;
 
@@ -156,6 +167,7 @@ private:
   bool PatchColumns = false;
   int NumberOfThreads = 0;
   vtkSmartPointer<vtkIdTypeArray> ColumnNodes;
+  std::unique_ptr<Computed> Kept;
 };
 
 #endif

@@ -63,8 +63,12 @@ int vtkCapacitanceSolve::FillInputPortInformation(int port, vtkInformation* info
 
 void vtkCapacitanceSolve::SetTriangleTractionArrayName(const char* name)
 {
-  this->TriangleTractionArrayName = name ? name : "";
-  this->Modified();
+  const std::string value = name ? name : "";
+  if (value != this->TriangleTractionArrayName)
+  {
+    this->TriangleTractionArrayName = value;
+    this->Modified();
+  }
 }
 
 vtkCapacitanceSolve::Prepared& vtkCapacitanceSolve::Prepare(vtkPolyData* input)

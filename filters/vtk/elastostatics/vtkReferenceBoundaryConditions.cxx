@@ -65,8 +65,12 @@ int vtkReferenceBoundaryConditions::FillInputPortInformation(int port, vtkInform
 
 void vtkReferenceBoundaryConditions::SetFixedArrayName(const char* name)
 {
-  this->FixedArrayName = name ? name : "";
-  this->Modified();
+  const std::string value = name ? name : "";
+  if (value != this->FixedArrayName)
+  {
+    this->FixedArrayName = value;
+    this->Modified();
+  }
 }
 
 void vtkReferenceBoundaryConditions::AddFixedHalfSpace(const double origin[3], const double normal[3])
