@@ -166,8 +166,12 @@ class Formats(Program):
         writer.SetFileName(str(self.folder / "s.stl"))
         writer.Write()
         path = self.folder / "s.stl"
-        path.write_bytes(path.read_bytes()[:-60])
-        self.run_badly("s.stl: ", "info", path)
+        whole = path.read_bytes()
+        for start in (whole[:80], b"solid from a program that begins binary files so".ljust(80)):
+            path.write_bytes(start + whole[80:])
+            self.run_well("info", path)
+            path.write_bytes((start + whole[80:])[:len(whole) // 2])
+            self.run_badly("s.stl: the file is cut short", "info", path)
 
 
 class Failures(Program):
