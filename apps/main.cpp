@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "terminal.h"
@@ -22,6 +24,20 @@ void requireKnownCommand(const CLI::App& program, int argc, char** argv) {
   }
   throw std::invalid_argument("there is no command '" + std::string(argv[1]) + "': choose one of " +
                               known + " (see `palpate --help`)");
+}
+
+/// The arguments, last first, as CLI11 wants them. It takes "-.5" for an option: such numbers get the
+/// zero that they leave out.
+std::vector<std::string> reversedArguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {
+    std::string text = argv[i];
+    char* end = nullptr;
+    if (text.rfind("-.", 0) == 0 && (std::strtod(text.c_str(), &end), *end == '\0'))
+      text.insert(1, "0");
+    arguments.push_back(text);
+  }
+  return arguments;
 }
 
 }  // namespace
@@ -52,8 +68,10 @@ int main(int argc, char** argv) {
   catchInterrupts();
   try {
     requireKnownCommand(program, argc, argv);
-    CLI11_PARSE(program, argc, argv);
+    program.parse(reversedArguments(argc, argv));
     return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error);
   } catch (const std::exception& failure) {
     endProgressBar();
     std::cerr << "palpate: " << failure.what() << "\n";

@@ -103,6 +103,18 @@ class Walkthrough(Program):
         self.assertRegex(self.run_well("--version"), r"^\d+\.\d+\.\d+\n$")
 
 
+    def test_takes_negative_numbers_however_they_are_written(self):
+        model = self.model()
+        pressed = [self.run_well("press", model, "--at", 0, x, x, "--force", x, 0, x)
+                   for x in ("-0.5", "-.5", "-5e-1", "-.05e1")]
+        self.assertEqual(len(set(pressed)), 1)
+        fixed = [self.run_well("precompute", KIDNEY, model, "--fix-sphere", 0, 0, z, 1,
+                               "--fix-half-space", 0, 0, z, 0, 0, "1").splitlines()[1]
+                 for z in ("-0.99", "-.99")]
+        self.assertEqual(fixed[0], fixed[1])
+        self.run_badly("--help", "press", model, "--at", 0, 0, "-.5x", "--force", 0, 0, 1)
+
+
 class Formats(Program):
     def test_are_read_alike(self):
         surface = sphere(1)
