@@ -187,6 +187,26 @@ class EveryFilter(unittest.TestCase):
             self.assertEqual(fields, model.GetFieldData().GetNumberOfArrays(), make.__name__)
             self.assertTrue((points == points_of(model)).all(), make.__name__)
 
+    def test_drops_results_that_hold_no_longer(self):
+        model = palpate.stiffness(palpate.press(sphere_model(1), (0, 0, 1), force=(0, 0, -1)))
+        model = palpate.solve(model, [], [])
+        stiff = ("Stiffness", "StiffnessNorm", "StiffnessAsymmetry", "HapticRatio")
+        pressed = ("ContactPoint", "ElasticContactPoint", "HapticContactPoint")
+        solved = ("Displacement", "Traction", "ContactForce", "ContactTorque", "ContactCondition")
+
+        def names(surface):
+            return {data.GetArrayName(i) for data in (surface.GetPointData(), surface.GetFieldData())
+                    for i in range(data.GetNumberOfArrays())}
+
+        self.assertTrue(names(model).issuperset(stiff + solved))
+        self.assertTrue(names(model).isdisjoint(pressed))
+        again = palpate.press(model, (0, 0, 1), force=(0, 0, -1))
+        self.assertTrue(names(again).issuperset(stiff + pressed))
+        self.assertTrue(names(again).isdisjoint(("ContactTorque", "ContactCondition")))
+        for make in FILTERS[1:4]:
+            left = names(updated(make, again).GetOutput())
+            self.assertTrue(left.isdisjoint(stiff + pressed + solved), make.__name__)
+
     def test_fails_with_one_error_event_and_an_empty_output(self):
         surface = sphere(1)
         surface.GetPolys().GetConnectivityArray().SetValue(0, 5)  # no longer closed

@@ -70,6 +70,19 @@ constexpr const char* HapticContactPoint = "HapticContactPoint";   // 3, x^H, m
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
 constexpr const char* Zone = "Zone";           // int, optional: whose force it counts to
+
+/// Field data of one computation of Green's functions.
+constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
+  PatchGreensFunctions, PatchGreensFunctionNodes, GreensFunctionYoungsModulus, GreensFunctionSource,
+  GreensFunctionDomain, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
+  ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
+  RockingCompliance, PeakBytes, StageSeconds, StageNames, Warnings };
+/// Point and field data of one contact.
+constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
+  ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };
+/// Point data of all contacts with one model.
+constexpr const char* StiffnessResults[] = { PressureMask, Stiffness, StiffnessNorm,
+  StiffnessAsymmetry, HapticRatio };
 } // namespace palpate::arrays
 
 #endif

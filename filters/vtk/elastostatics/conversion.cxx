@@ -313,16 +313,27 @@ void setBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>& ty
 
 void removeGreensFunctions(vtkDataObject* data)
 {
-  for (const char* name : { arrays::GreensFunctions, arrays::GreensFunctionNodes,
-         arrays::PatchGreensFunctions, arrays::PatchGreensFunctionNodes,
-         arrays::GreensFunctionYoungsModulus, arrays::GreensFunctionSource,
-         arrays::GreensFunctionDomain, arrays::GreensFunctionsReciprocal, arrays::MeshFingerprint,
-         arrays::ConditionEstimate, arrays::ReciprocityDefect, arrays::RotationDefect,
-         arrays::SolverResidual, arrays::IntegrationTolerance, arrays::WallRatio,
-         arrays::SupportWidth, arrays::RockingCompliance, arrays::PeakBytes, arrays::StageSeconds,
-         arrays::StageNames, arrays::Warnings })
+  for (const char* name : arrays::GreensFunctionResults)
   {
     fieldsOf(data)->RemoveArray(name);
+  }
+}
+
+void removeContact(vtkPolyData* surface)
+{
+  for (const char* name : arrays::ContactResults)
+  {
+    surface->GetPointData()->RemoveArray(name);
+    fieldsOf(surface)->RemoveArray(name);
+  }
+}
+
+void removeResponses(vtkPolyData* surface)
+{
+  removeContact(surface);
+  for (const char* name : arrays::StiffnessResults)
+  {
+    surface->GetPointData()->RemoveArray(name);
   }
 }
 } // namespace palpate::convert

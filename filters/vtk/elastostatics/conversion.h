@@ -55,6 +55,10 @@ void setBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>& ty
 
 /// Takes out of the field data what belongs to Green's functions, which another mesh would not have.
 void removeGreensFunctions(vtkDataObject* data);
+/// Takes away what a contact left, which another contact would not have.
+void removeContact(vtkPolyData* surface);
+/// Takes away what contacts left and all stiffnesses, which another model would not have.
+void removeResponses(vtkPolyData* surface);
 } // namespace palpate::convert
 
 #endif

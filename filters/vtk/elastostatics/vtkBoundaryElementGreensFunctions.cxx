@@ -81,6 +81,7 @@ void vtkBoundaryElementGreensFunctions::Compute(
         { return this->ReportProgress(fraction, stage); }));
     this->Kept = std::move(computed);
   }
+  convert::removeResponses(output);
   convert::shareGreensFunctions(this->Kept->Arrays, output, model.material().youngsModulus());
   if (convert::hasGivenPatches(input, model.mesh()))
   {

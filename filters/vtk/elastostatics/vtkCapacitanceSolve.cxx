@@ -323,6 +323,7 @@ void vtkCapacitanceSolve::Compute(
     forces.col(zone) = wrench.force;
     torques.col(zone++) = wrench.torque;
   }
+  convert::removeContact(output);
   convert::setPointVectors(output, arrays::Displacement, solution.displacement);
   convert::setPointVectors(output, arrays::Traction, solution.traction);
   convert::setFieldVectors(output, arrays::ContactForce, forces);

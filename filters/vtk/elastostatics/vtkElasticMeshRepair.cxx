@@ -53,5 +53,12 @@ void vtkElasticMeshRepair::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
     copy(input->GetCellData(), output->GetCellData(), repaired.originalTriangle);
   }
   convert::removeGreensFunctions(output);
+  convert::removeResponses(output);
+  output->GetPointData()->RemoveArray(palpate::arrays::VertexArea);
+  if (convert::hasField(input, palpate::arrays::SmoothAngle))
+  {
+    output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
+    output->GetCellData()->RemoveArray(palpate::arrays::SmoothPatch);
+  }
   convert::setFieldStrings(output, palpate::arrays::RepairChanges, changes);
 }

@@ -52,12 +52,8 @@ void vtkLoopRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInfo
   }
   removeFoundPatches(input, output);
   convert::removeGreensFunctions(output);
-  for (const char* name : { palpate::arrays::VertexArea, palpate::arrays::PressureMask,
-         palpate::arrays::Stiffness, palpate::arrays::StiffnessNorm,
-         palpate::arrays::StiffnessAsymmetry, palpate::arrays::HapticRatio })
-  {
-    output->GetPointData()->RemoveArray(name);
-  }
+  convert::removeResponses(output);
+  output->GetPointData()->RemoveArray(palpate::arrays::VertexArea);
   const bool hasTypes = input->GetPointData()->HasArray(palpate::arrays::BoundaryType);
   for (int step = 0; step < this->NumberOfLevels; ++step)
   {

@@ -100,6 +100,7 @@ void vtkPointContact::Compute(vtkPolyData* input, vtkPolyData* output, vtkInform
   Eigen::Matrix3Xd displacement, traction;
   contact.deform(response.force, displacement, traction);
 
+  convert::removeContact(output);
   convert::setPointVectors(output, arrays::Displacement, displacement);
   convert::setPointVectors(output, arrays::Traction, traction);
   convert::setFieldVector(output, arrays::ContactForce, response.force);

@@ -196,6 +196,7 @@ void vtkReferenceBoundaryConditions::Compute(
   namespace arrays = palpate::arrays;
   const vtkIdType count = input->GetNumberOfPoints();
   requireSensibleRegions(this->HalfSpaces, this->Boxes, this->Spheres);
+  palpate::convert::removeResponses(output);
   vtkSelection* selection = vtkSelection::GetData(inputs[1]);
   const bool hasRegions =
     !this->HalfSpaces.empty() || !this->Boxes.empty() || !this->Spheres.empty();
