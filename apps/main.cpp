@@ -26,8 +26,8 @@ void requireKnownCommand(const CLI::App& program, int argc, char** argv) {
                               known + " (see `palpate --help`)");
 }
 
-/// The arguments, last first, as CLI11 wants them. It takes "-.5" for an option: such numbers get the
-/// zero that they leave out.
+/// The arguments, last first, as CLI11 wants them. It takes "-.5" for an option: such numbers get
+/// the zero that they leave out.
 std::vector<std::string> reversedArguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int i = argc - 1; i > 0; --i) {
@@ -38,6 +38,18 @@ std::vector<std::string> reversedArguments(int argc, char** argv) {
     arguments.push_back(text);
   }
   return arguments;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+  requireKnownCommand(program, argc, argv);
+  int status = 0;
+  try {
+    program.parse(reversedArguments(argc, argv));
+  } catch (const CLI::ParseError& error) {
+    status = program.exit(error);  // help and version, too
+  }
+  palpate::app::requirePrinted();
+  return status;
 }
 
 }  // namespace
@@ -67,11 +79,7 @@ int main(int argc, char** argv) {
     add(program);
   catchInterrupts();
   try {
-    requireKnownCommand(program, argc, argv);
-    program.parse(reversedArguments(argc, argv));
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error);
+    return run(program, argc, argv);
   } catch (const std::exception& failure) {
     endProgressBar();
     std::cerr << "palpate: " << failure.what() << "\n";

@@ -34,8 +34,11 @@ struct Options {
 
 void addOptions(CLI::App& command, Options& o) {
   command.add_option("input", o.input, "A closed triangle surface")->required();
-  command.add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
-      ->required();
+  requireWritable(
+      command
+          .add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
+          ->required(),
+      "models", ".vtp");
   const CLI::Validator isNumber(
       [](const std::string& text) {
         return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number: " + text : "";

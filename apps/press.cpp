@@ -51,8 +51,9 @@ void addPress(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("press", "Press or pull a model at a point");
   command->add_option("input", options->input, "A model from `palpate precompute`")->required();
-  command->add_option("output", options->output,
-                      "The model with displacements and tractions, .vtp");
+  requireWritable(command->add_option("output", options->output,
+                                      "The model with displacements and tractions, .vtp"),
+                  "models", ".vtp");
   command->add_option("--at", options->point, "Where: the nearest point of the surface is taken")
       ->expected(3)
       ->required();
@@ -71,6 +72,7 @@ void addPress(CLI::App& program) {
   command->callback([options] {
     if (options->displacement.empty() && options->force.empty())
       throw CLI::RequiredError("--displacement or --force");
+    options->picture.requireSensible();
     vtkNew<vtkPointContact> contact;
     contact->SetInputData(readSurface(options->input));
     contact->SetPoint(options->point.data());

@@ -21,7 +21,9 @@ void addRefine(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("refine", "Subdivide a surface by Loop's scheme");
   command->add_option("input", options->input, "A closed triangle surface")->required();
-  command->add_option("output", options->output, "The finer surface, .vtp")->required();
+  requireWritable(
+      command->add_option("output", options->output, "The finer surface, .vtp")->required(),
+      "models", ".vtp");
   command->add_option("--levels", options->levels, "How often every triangle is split in four")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();

@@ -22,7 +22,9 @@ void addRepair(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("repair", "Mend a surface so that it bounds elastic bodies");
   command->add_option("input", options->input, "A .vtp, .stl, .obj, .ply or .off file")->required();
-  command->add_option("output", options->output, "The mended surface, .vtp")->required();
+  requireWritable(
+      command->add_option("output", options->output, "The mended surface, .vtp")->required(),
+      "models", ".vtp");
   command->footer(
       "Welds duplicate vertices, drops bad triangles, fills holes, removes self-intersections and\n"
       "turns triangles outwards. Each kind of change is printed; nothing is said of a sound "

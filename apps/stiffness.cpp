@@ -78,13 +78,16 @@ void addStiffness(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "stiffness", "The stiffness that a point-like contact feels everywhere");
   command->add_option("input", options->input, "A model from `palpate precompute`")->required();
-  command->add_option("output", options->output, "The model with its stiffness fields, .vtp");
+  requireWritable(
+      command->add_option("output", options->output, "The model with its stiffness fields, .vtp"),
+      "models", ".vtp");
   options->mask.addTo(*command);
   options->picture.addTo(*command, "the norm of the stiffness");
   command->footer(
       "Without a mask the field shows the mesh as much as the material.\n"
       "  palpate stiffness model.vtp field.vtp --radius-edges 2 --image field.png");
   command->callback([options] {
+    options->picture.requireSensible();
     vtkNew<vtkSurfaceStiffness> filter;
     filter->SetInputData(readSurface(options->input));
     options->mask.applyTo(filter);

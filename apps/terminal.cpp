@@ -16,9 +16,13 @@
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
+#include <cstring>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -65,6 +69,24 @@ vtkSmartPointer<vtkPolyData> readSurface(const std::string& path) {
   return reader->GetOutput();
 }
 
+void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending) {
+  const auto complaint = [what, ending](const std::string& name) -> std::string {
+    const std::filesystem::path path = name,
+                                folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (CLI::detail::to_lower(path.extension().string()) != ending)
+      return what + " are written as " + ending + ": choose a name that ends so, not " + name;
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown))
+      return name + " cannot be written: it is a folder";
+    if (!std::filesystem::is_directory(folder, unknown))
+      return name + " cannot be written: there is no folder " + folder.string();
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+      return name + " cannot be written: " + std::strerror(errno);
+    return {};
+  };
+  option->check(CLI::Validator(complaint, ""));
+}
+
 void writeSurface(vtkPolyData* surface, const std::string& path) {
   vtkNew<vtkElasticSurfaceWriter> writer;
   silence(writer);
@@ -99,7 +121,12 @@ void endProgressBar() {
 }
 
 void printRow(const std::string& label, const std::string& value) {
-  std::cout << std::left << std::setw(28) << label << value << "\n";
+  const int width = std::max(28, static_cast<int>(label.size()) + 2);
+  std::cout << std::left << std::setw(width) << label << value << "\n";
+}
+
+void requirePrinted() {
+  if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written to");
 }
 
 std::string number(double value, int digits) {
@@ -163,15 +190,9 @@ void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {
 }
 
 void PictureOptions::addTo(CLI::App& command, const std::string& what) {
-  const CLI::Validator isPng(
-      [](const std::string& name) {
-        const bool ends =
-            name.size() > 4 && CLI::detail::to_lower(name.substr(name.size() - 4)) == ".png";
-        return ends ? "" : "pictures are written as .png: choose a name that ends so, not " + name;
-      },
-      "");
-  command.add_option("--image", path, "Draw " + what + " to this PNG file; needs no display")
-      ->check(isPng);
+  requireWritable(
+      command.add_option("--image", path, "Draw " + what + " to this PNG file; needs no display"),
+      "pictures", ".png");
   command
       .add_option("--view", view,
                   "Direction from the object to the eye, three numbers; by default onto the free "
@@ -180,9 +201,18 @@ void PictureOptions::addTo(CLI::App& command, const std::string& what) {
   command.add_option("--range", range, "Smallest and largest value of the colours")->expected(2);
 }
 
+void PictureOptions::requireSensible() const {
+  const double length = view.empty() ? 1 : std::hypot(view[0], view[1], view[2]);
+  if (!(length > 0 && std::isfinite(length)))
+    throw std::invalid_argument("--view must be a direction: three finite numbers, not all zero");
+  if (!range.empty() && !(std::isfinite(range[1] - range[0]) && range[0] < range[1]))
+    throw std::invalid_argument("--range must be two finite numbers, the smaller one first");
+}
+
 std::array<double, 3> PictureOptions::towardsViewer(vtkPolyData* surface) const {
-  if (view.size() == 3) return {view[0], view[1], view[2]};
-  return directionOntoFreeSurface(surface);
+  if (view.empty()) return directionOntoFreeSurface(surface);
+  const double length = std::hypot(view[0], view[1], view[2]);
+  return {view[0] / length, view[1] / length, view[2] / length};
 }
 
 }  // namespace palpate::app

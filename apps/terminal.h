@@ -11,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 class vtkMaskedContactAlgorithm;
 class vtkPolyData;
 class vtkPolyDataAlgorithm;
@@ -21,6 +22,10 @@ namespace palpate::app {
 
 /// @throws std::runtime_error with the reader's sentence.
 vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
+/// Has an option's path checked before anything is computed: its ending, and that its folder can be
+/// written to.
+/// @param what  what is written, for the sentence.
+void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending);
 /// @throws std::runtime_error with the writer's sentence.
 void writeSurface(vtkPolyData* surface, const std::string& path);
 
@@ -35,6 +40,8 @@ void endProgressBar();
 
 /// "label   value" lines for people, on stdout.
 void printRow(const std::string& label, const std::string& value);
+/// @throws std::runtime_error if what was printed on stdout did not arrive.
+void requirePrinted();
 std::string number(double value, int digits = 4);
 std::string vectorText(const double* components);
 
@@ -60,6 +67,9 @@ struct PictureOptions {
   std::string path;
   std::vector<double> view, range;
   void addTo(CLI::App& command, const std::string& what);
+  /// @throws std::invalid_argument for a view without direction or a range without extent.
+  void requireSensible() const;
+  /// A unit vector.
   std::array<double, 3> towardsViewer(vtkPolyData* surface) const;
 };
 

@@ -9,7 +9,6 @@
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
-#include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
@@ -22,12 +21,14 @@
 #include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWarpVector.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 #include "picture/colour_map.h"
@@ -166,19 +167,20 @@ void writePng(vtkRenderWindow* window, const std::string& path) {
   image->SetInput(window);
   image->SetInputBufferTypeToRGB();
   image->ReadFrontBufferOff();
-  const std::string partial = path + ".part";
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(partial.c_str());
+  vtkNew<vtkPNGWriter> writer;  // to memory: libpng prints what goes wrong with files
+  writer->WriteToMemoryOn();
   writer->SetInputConnection(image->GetOutputPort());
-  const vtkTypeBool display = vtkObject::GetGlobalWarningDisplay();
-  vtkObject::SetGlobalWarningDisplay(0);
   writer->Write();
-  vtkObject::SetGlobalWarningDisplay(display);
-  if (writer->GetErrorCode() != vtkErrorCode::NoError ||
-      std::rename(partial.c_str(), path.c_str()) != 0) {
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  const std::string partial = path + ".part";
+  std::ofstream file(partial, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
+  file.close();
+  if (!file || std::rename(partial.c_str(), path.c_str()) != 0) {
     std::remove(partial.c_str());
     throw std::runtime_error(path +
-                             ": the picture cannot be written: is the folder there and writable?");
+                             ": the picture cannot be written: is the folder there and "
+                             "writable, is the disk full?");
   }
 }
 

@@ -3,6 +3,7 @@
 """The program `palpate`: what it prints and writes, and how it fails."""
 
 import os
+import resource
 import signal
 import subprocess
 import tempfile
@@ -42,14 +43,14 @@ class Program(unittest.TestCase):
 
     def run_badly(self, sentence, *arguments, **options):
         """The command fails with one line that holds a sentence, and writes nothing."""
-        before = sorted((p.name, p.stat().st_mtime_ns) for p in self.folder.iterdir())
+        before = sorted((p.name, p.lstat().st_mtime_ns) for p in self.folder.iterdir())
         process = start(*arguments, **options)
         printed, errors = process.communicate()
         self.assertGreater(process.returncode, 0, arguments)
         self.assertEqual(printed, "")
         self.assertTrue(errors.startswith("palpate: ") and errors.count("\n") == 1, errors)
         self.assertIn(sentence, errors)
-        after = sorted((p.name, p.stat().st_mtime_ns) for p in self.folder.iterdir())
+        after = sorted((p.name, p.lstat().st_mtime_ns) for p in self.folder.iterdir())
         self.assertEqual(before, after)
 
     def model(self):
@@ -90,6 +91,8 @@ class Walkthrough(Program):
         told = self.run_well("info", self.model())
         for label in ("Young's modulus", "condition number", "reciprocity defect", "made by"):
             self.assertIn(label, told)
+        for line in told.splitlines():
+            self.assertRegex(line, r"^\S.*?  +\S")
         flat = self.folder / "open.off"
         flat.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
         self.assertIn("sound                       no", self.run_well("info", flat))
@@ -197,6 +200,43 @@ class Failures(Program):
         self.run_badly("there is no such file", "info", self.folder / "none.vtp")
         self.run_badly("choose a name that ends so", "refine", KIDNEY, self.folder / "a.stl")
         self.run_badly("cannot be written", "refine", KIDNEY, self.folder / "no" / "a.vtp")
+        self.run_badly("is a folder, not a file", "info", self.folder)
+        loop = self.folder / "loop.vtp"  # what an unreadable file is to the superuser, too
+        loop.symlink_to(loop)
+        self.run_badly("loop.vtp: cannot be read: Too many levels", "info", loop)
+
+    def test_of_outputs_are_found_before_the_work(self):
+        none, folder = self.folder / "none.vtp", self.folder / "folder.vtp"
+        folder.mkdir()
+        model = self.model()
+        for command, *options in (("refine",), ("repair",), ("precompute",), ("stiffness",),
+                                  ("press", "--at", 0, 0, 0, "--force", 0, 0, 1)):
+            for output, sentence in (("a.stl", "models are written as .vtp"),
+                                     ("no/a.vtp", "there is no folder"), (folder, "it is a folder")):
+                self.run_badly(sentence, command, none, self.folder / output, *options)
+            if command in ("stiffness", "press"):
+                for image, sentence in (("a.jpg", "written as .png"), ("no/a.png", "no folder")):
+                    self.run_badly(sentence, command, none, "--image", self.folder / image, *options)
+                picture = (none, *options, "--image", self.folder / "a.png")
+                for view in ((0, 0, 0), (0, "nan", 1), ("inf", 0, 0)):
+                    self.run_badly("--view must be a direction", command, *picture, "--view", *view)
+                for ends in ((5, 1), (1, 1), ("nan", 1), (0, "inf")):
+                    self.run_badly("--range must be two", command, *picture, "--range", *ends)
+        self.assertTrue(model.is_file())
+
+    def test_of_a_full_disk_are_one_line(self):
+        with open("/dev/full", "w") as full:
+            for arguments in (("info", KIDNEY), ("--help",)):
+                process = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE,
+                                         text=True)
+                self.assertEqual((process.returncode, process.stderr),
+                                 (1, "palpate: standard output cannot be written to\n"))
+        model = self.model()
+        for bytes_allowed, arguments in ((30000, ("--image", self.folder / "a.png")),  # Xvfb's files
+                                         (4000, (self.folder / "a.vtp",))):
+            self.run_badly("is the disk full?", "stiffness", model, *arguments, preexec_fn=lambda:
+                           resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_allowed,) * 2),
+                           restore_signals=False)  # Python ignores SIGXFSZ
 
     def test_of_problems_are_one_line(self):
         output = self.folder / "model.vtp"

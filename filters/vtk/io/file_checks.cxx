@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -65,6 +66,20 @@ std::string checksum(std::ifstream& file, std::uint64_t size)
   return digits;
 }
 } // namespace
+
+void requireReadable(const std::string& path)
+{
+  if (access(path.c_str(), R_OK) != 0)
+  {
+    throw std::runtime_error(errno == ENOENT || errno == ENOTDIR
+        ? std::string("there is no such file")
+        : std::string("cannot be read: ") + std::strerror(errno));
+  }
+  if (vtksys::SystemTools::FileIsDirectory(path))
+  {
+    throw std::runtime_error("is a folder, not a file");
+  }
+}
 
 void sealXml(const std::string& path)
 {

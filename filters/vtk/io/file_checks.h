@@ -10,6 +10,9 @@
 /// What VTK's readers do not check before they trust a file.
 namespace palpate::io
 {
+/// @throws std::runtime_error if there is no such file, or none that may be read.
+void requireReadable(const std::string& path);
+
 /// Appends to a finished .vtp file the CRC-32 of its bytes, as an XML comment behind the root element,
 /// where readers do not look.
 /// @throws std::runtime_error if the file cannot be read or written.

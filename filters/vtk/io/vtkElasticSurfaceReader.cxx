@@ -177,10 +177,7 @@ void requireConsistentArrays(vtkDataSetAttributes* attributes, vtkIdType count, 
 
 void readFile(const std::string& path, vtkPolyData* output)
 {
-  if (!vtksys::SystemTools::FileExists(path, true))
-  {
-    throw std::runtime_error("there is no such file");
-  }
+  palpate::io::requireReadable(path);
   const std::string extension = vtksys::SystemTools::LowerCase(
     vtksys::SystemTools::GetFilenameLastExtension(path));
   if (extension == ".vtp")
