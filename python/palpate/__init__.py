@@ -20,11 +20,13 @@ from .arrays import array, greens_function_nodes, greens_functions
 from .errors import Aborted, Error, ModelWarning
 from .files import example, read, write
 from .functions import precompute, press, refine, repair, solve, stiffness
+from .version import __version__
 
 __all__ = [
     "Aborted",
     "Error",
     "ModelWarning",
+    "__version__",
     "array",
     "example",
     "greens_function_nodes",

@@ -15,18 +15,40 @@ DOMAINS = {"interior": 0, "exterior": 1}
 MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3}
 
 
+def shown(value):
+    """Any value in a sentence: one line, not too long."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
 def choice(value, choices, what):
     """The number that a filter knows a choice by."""
-    if value not in choices:
-        raise Error(f"there is no {what} '{value}': choose one of {', '.join(choices)}")
+    if not isinstance(value, str) or value not in choices:
+        raise Error(f"there is no {what} {shown(value)}: choose one of {', '.join(choices)}")
     return choices[value]
+
+
+def flag(value, what):
+    """True or False."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):
+        raise Error(f"{what} must be True or False, not {shown(value)}") from None
+
+
+def listed(values, what):
+    """An array of anything that has a shape."""
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):
+        raise Error(f"{what} must be a list of single values, not {shown(values)}") from None
 
 
 def numbers(values, what):
     """An array of numbers."""
     try:
         return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise Error(f"{what} must be numbers") from None
 
 
@@ -57,24 +79,26 @@ def number(value, what):
     """A number that is one."""
     try:
         given = float(value)
-    except (TypeError, ValueError):
-        raise Error(f"{what} must be a number, not {value!r}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise Error(f"{what} must be a number, not {shown(value)}") from None
     if given != given:
         raise Error(f"{what} must be a number, not NaN")
     return given
 
 
-def whole_number(value, what):
-    """An integer, however it is written."""
+def whole_number(value, what, most):
+    """An integer from 0 to `most`, however it is written."""
     given = number(value, what)
-    if given != int(given):
-        raise Error(f"{what} must be a whole number, not {value}")
+    if np.isfinite(given) and given != int(given):
+        raise Error(f"{what} must be a whole number, not {given:g}")
+    if not 0 <= given <= most:
+        raise Error(f"{what} must be 0 to {most}, not {given:.17g}")
     return int(given)
 
 
 def vertex_list(values, count, what):
     """Vertex numbers, or a mask of booleans with one value a vertex."""
-    given = np.asarray(values)
+    given = listed(values, what)
     if given.dtype == bool:
         if given.shape != (count,):
             raise Error(f"{what} as booleans must hold {count} values, one a vertex")
@@ -97,7 +121,13 @@ def progress_bar(fraction, stage):
 
 def progress_callback(progress):
     """What a function's argument `progress` calls: the bar for True, nothing for None and False."""
-    return progress_bar if progress is True else progress or None
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return progress_bar
+    if not callable(progress):
+        raise Error(f"progress must be a function, True or False, not {shown(progress)}")
+    return progress
 
 
 def set_mask(algorithm, radius, radius_in_edges, mask):

@@ -5,6 +5,10 @@
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+
+from .arguments import surface_of
+from .errors import Error
 
 
 def array(data, name):
@@ -26,6 +30,8 @@ def array(data, name):
     ------
     KeyError
         If there is no such array.
+    Error
+        If there is no data object.
 
     Examples
     --------
@@ -34,13 +40,23 @@ def array(data, name):
     >>> palpate.array(kidney, "BoundaryType").shape
     (22,)
     """
-    for attributes in (data.GetPointData(), data.GetCellData(), data.GetFieldData()):
-        found = attributes.GetAbstractArray(name)
+    if not isinstance(data, vtkDataObject):
+        raise Error(f"arrays are those of a vtkDataObject, not of {type(data).__name__}")
+    for kind in (vtkDataObject.POINT, vtkDataObject.CELL, vtkDataObject.FIELD):
+        attributes = data.GetAttributesAsFieldData(kind)
+        found = attributes and attributes.GetAbstractArray(name)
         if isinstance(found, vtkStringArray):
             return [found.GetValue(i) for i in range(found.GetNumberOfValues())]
         if found is not None:
             return vtk_to_numpy(found)
     raise KeyError(f"there is no array '{name}'")
+
+
+def stored(model, name):
+    """An array that comes with Green's functions."""
+    if not surface_of(model).GetFieldData().HasArray(name):
+        raise Error("the surface carries no Green's functions: compute them with palpate.precompute")
+    return array(model, name)
 
 
 def greens_functions(model):
@@ -61,6 +77,11 @@ def greens_functions(model):
         field `GreensFunctionYoungsModulus`, which differs from `YoungsModulus` where that was changed
         after the computation.
 
+    Raises
+    ------
+    Error
+        If it is no surface or carries no Green's functions.
+
     Examples
     --------
     >>> import palpate
@@ -69,7 +90,7 @@ def greens_functions(model):
     >>> palpate.greens_functions(model).shape, len(palpate.greens_function_nodes(model))
     ((66, 30), 10)
     """
-    return array(model, "GreensFunctions").T
+    return stored(model, "GreensFunctions").T
 
 
 def greens_function_nodes(model):
@@ -85,6 +106,11 @@ def greens_function_nodes(model):
     numpy.ndarray
         m vertex numbers.
 
+    Raises
+    ------
+    Error
+        If it is no surface or carries no Green's functions.
+
     Examples
     --------
     >>> import palpate
@@ -92,7 +118,7 @@ def greens_function_nodes(model):
     >>> bool((palpate.array(model, "BoundaryType")[palpate.greens_function_nodes(model)] == 0).all())
     True
     """
-    return array(model, "GreensFunctionNodes")
+    return stored(model, "GreensFunctionNodes")
 
 
 def as_vtk(values, name, components, dtype=np.float64):

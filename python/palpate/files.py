@@ -5,8 +5,20 @@
 import os
 from pathlib import Path
 
+from .arguments import shown, surface_of
 from .errors import Error, deferred_interrupts, silenced
 from .PalpateIO import vtkElasticSurfaceReader, vtkElasticSurfaceWriter
+
+
+def path_of(value):
+    """A path as the filters take it."""
+    try:
+        path = os.fsencode(value)
+    except TypeError:
+        raise Error(f"a path must be a string or path-like, not {type(value).__name__}") from None
+    if b"\0" in path:
+        raise Error(f"a path cannot hold a null character: {shown(os.fsdecode(path))}")
+    return path
 
 
 def read(path):
@@ -33,7 +45,7 @@ def read(path):
     34
     """
     reader = vtkElasticSurfaceReader()
-    reader.SetFileName(os.fspath(path))
+    reader.SetFileName(path_of(path))
     with deferred_interrupts(), silenced(reader):
         reader.Update()
     if reader.GetFailureMessage():
@@ -66,7 +78,7 @@ def write(model, path):
     """
     writer = vtkElasticSurfaceWriter()
     with deferred_interrupts(), silenced(writer):
-        if not writer.Write(model, os.fspath(path)):
+        if not writer.Write(surface_of(model), path_of(path)):
             raise Error(writer.GetFailureMessage())
 
 
@@ -80,6 +92,11 @@ def example(name):
     Returns
     -------
     str
+
+    Raises
+    ------
+    Error
+        If there is no such model.
 
     Examples
     --------

@@ -12,6 +12,8 @@ from .arguments import (
     DOMAINS,
     PRECISIONS,
     choice,
+    flag,
+    listed,
     number,
     progress_callback,
     set_mask,
@@ -34,6 +36,7 @@ from .PalpateElastostatics import (
 )
 
 __all__ = ["precompute", "press", "refine", "repair", "solve", "stiffness"]
+
 
 def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
                tolerance=None, columns=None, domain="interior", reciprocal=True,
@@ -78,7 +81,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     patch_columns : bool
         Also compute what `solve` needs for `face_tractions` on surfaces with sharp edges.
     threads : int
-        0 for all cores.
+        0 for all cores, at most 1024.
 
     Returns
     -------
@@ -107,13 +110,12 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     >>> float(palpate.array(model, "ReciprocityDefect")[0]) < 0.1
     True
     """
-    if method != "bem":
-        raise Error(f"there is no method '{method}': choose bem")
+    choice(method, {"bem": 0}, "method")
     conditions = vtkReferenceBoundaryConditions()
     conditioned = vtkPolyData()
     conditioned.ShallowCopy(surface_of(surface))
     if fixed is not None:
-        fixed = np.asarray(fixed)
+        fixed = listed(fixed, "fixed")
         if fixed.dtype.kind not in "biuf" or not np.isfinite(fixed).all():
             raise Error("fixed must hold booleans")
         if fixed.shape != (surface.GetNumberOfPoints(),):
@@ -132,10 +134,10 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
     bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
     bem.SetDomain(choice(domain, DOMAINS, "domain"))
-    bem.SetReciprocal(bool(reciprocal))
+    bem.SetReciprocal(flag(reciprocal, "reciprocal"))
     bem.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
-    bem.SetPatchColumns(bool(patch_columns))
-    bem.SetNumberOfThreads(whole_number(threads, "threads"))
+    bem.SetPatchColumns(flag(patch_columns, "patch_columns"))
+    bem.SetNumberOfThreads(whole_number(threads, "threads", 1024))
     if tolerance is not None:
         bem.SetTolerance(number(tolerance, "tolerance"))
     if columns is not None:
@@ -198,7 +200,8 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
         given = vectors(free_tractions, count, "free_tractions")
         counts = given.any(axis=1)  # NaN counts: the filter refuses it
         counts &= ~np.isin(np.arange(count), nodes)
-        if model.GetPointData().HasArray("BoundaryType"):
+        types_given = model.GetPointData().GetArray("BoundaryType")
+        if types_given and types_given.GetNumberOfValues() == count:
             counts &= array(model, "BoundaryType") == 0
         loaded = np.flatnonzero(counts)
         nodes = np.concatenate([nodes, loaded])
@@ -352,12 +355,9 @@ def refine(surface, levels=1):
     >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
     620
     """
-    levels = whole_number(levels, "levels")
-    if not 0 <= levels <= 8:
-        raise Error(f"levels must be 0 to 8, not {levels}")
     refinement = vtkLoopRefinement()
     refinement.SetInputData(surface_of(surface))
-    refinement.SetNumberOfLevels(levels)
+    refinement.SetNumberOfLevels(whole_number(levels, "levels", 8))
     return run(refinement)
 
 

@@ -103,7 +103,8 @@ class Walkthrough(Program):
             told = self.run_well(command, "--help")
             self.assertIn(f"  palpate {command} ", told)
         self.run_well("info", "--help")
-        self.assertRegex(self.run_well("--version"), r"^\d+\.\d+\.\d+\n$")
+        self.assertRegex(palpate.__version__, r"^\d+\.\d+\.\d+$")
+        self.assertEqual(self.run_well("--version"), palpate.__version__ + "\n")
 
 
     def test_takes_negative_numbers_however_they_are_written(self):

@@ -16,7 +16,8 @@ class Docstrings(unittest.TestCase):
             value = getattr(palpate, name)
             if inspect.isfunction(value):
                 self.assertIn(">>> ", value.__doc__ or "", name)
-                for section in ("Parameters", "Returns") if name != "write" else ("Parameters",):
+                sections = ("Parameters", "Returns", "Raises")
+                for section in sections if name != "write" else ("Parameters", "Raises"):
                     self.assertIn(section, value.__doc__, name)
 
     def test_every_example_runs(self):

@@ -204,6 +204,44 @@ class Problems(Refusals):
         self.precompute_refused("-1", sphere(1), columns=[-1])
 
 
+class Arguments(Refusals):
+    def test_of_any_kind_are_refused_with_one_sentence(self):
+        array, ragged = np.random.default_rng(1).normal(size=(40, 40)), [[1], [2, 3]]
+        for wrong in (["double"], array, None, 5, {}):
+            for option in ("precision", "domain", "collocation", "method"):
+                self.precompute_refused(f"there is no {option} ", sphere(1), **{option: wrong})
+            self.refused("there is no mask ", palpate.stiffness, sphere_model(1), mask=wrong)
+        for wrong in (-1, 1025, 2**31, np.inf, 10**400, array, "many"):
+            self.precompute_refused("threads must be ", sphere(1), threads=wrong)
+            self.refused("levels must be ", palpate.refine, sphere(1), wrong)
+        for option in ("fixed", "columns"):
+            self.precompute_refused(f"{option} must ", sphere(1), **{option: ragged})
+        self.refused("nodes must be ", palpate.solve, sphere_model(1), ragged, [(0, 0, 1)] * 2)
+        self.refused("displacements must be ", palpate.solve, sphere_model(1), [1, 2], ragged)
+        for wrong in (5, "bar", array):
+            self.precompute_refused("progress must be ", sphere(1), progress=wrong)
+            self.refused("progress must be ", palpate.stiffness, sphere_model(1), progress=wrong)
+        self.precompute_refused("reciprocal must be ", sphere(1), reciprocal=array)
+        for wrong in (array, 10**400, [1, 2]):
+            self.precompute_refused("tolerance must be a number", sphere(1), tolerance=wrong)
+            self.refused("rigid_stiffness must be a number", palpate.stiffness, sphere_model(1),
+                         rigid_stiffness=wrong)
+
+    def test_of_files_are_refused_with_one_sentence(self):
+        for wrong in (None, 5, ["a"]):
+            self.refused("a path must be a string", palpate.read, wrong)
+            self.refused("a path must be a string", palpate.write, sphere(1), wrong)
+        self.refused("null character", palpate.read, "a\0b.vtp")
+        self.refused("null character", palpate.write, sphere(1), "a\0b.vtp")
+        self.refused("a surface must be a vtkPolyData, not str", palpate.write, "x", "x.vtp")
+
+    def test_that_carry_no_greens_functions_are_told_how_to_get_them(self):
+        for ask in (palpate.greens_functions, palpate.greens_function_nodes):
+            self.refused("compute them with palpate.precompute", ask, sphere(1))
+            self.refused("a surface must be a vtkPolyData, not NoneType", ask, None)
+        self.refused("not of NoneType", palpate.array, None, "Displacement")
+
+
 class Contacts(Refusals):
     def test_nodes_that_do_not_exist_are_named(self):
         model = sphere_model(1)
