@@ -262,6 +262,14 @@ class Contacts(Refusals):
         self.refused("finite", palpate.press, model, (0, 0, 1), force=(0, 0, np.nan))
         self.refused("finite", palpate.press, model, (0, 0, 1), displacement=(0, 0, np.inf))
 
+    def test_results_that_would_not_be_finite_are_refused(self):
+        model = sphere_model(1)
+        node = int(palpate.greens_function_nodes(model)[0])
+        self.refused("too large", palpate.solve, model, [node], [(0, 0, 1e308)])
+        self.refused("too large", palpate.solve, model, [], [], free_tractions=np.full((42, 3), 1e308))
+        self.refused("too large", palpate.press, model, (0, 0, 1), displacement=(0, 0, -1e308))
+        self.refused("too large", palpate.press, model, (0, 0, 1), force=(0, 0, 1e308))
+
     def test_a_node_displaced_twice_is_refused(self):
         model = sphere_model(1)
         node = int(palpate.greens_function_nodes(model)[0])
@@ -309,6 +317,14 @@ class Staleness(Refusals):
         self.refused("palpate precompute", palpate.stiffness, sphere(1))
         self.refused("palpate precompute", palpate.solve, sphere(1), [], [])
         self.refused("palpate precompute", palpate.press, sphere(1), (0, 0, 1), force=(0, 0, 1))
+
+    def test_vertices_taken_away_make_greens_functions_stale(self):
+        model = copy_of(sphere_model(1))
+        fewer = sphere(0)
+        model.SetPoints(fewer.GetPoints())
+        model.SetPolys(fewer.GetPolys())
+        self.refused("the surface has changed since its Green's functions were computed; compute them "
+                     "again", palpate.stiffness, model)
 
     def test_moved_points_make_greens_functions_stale(self):
         model = copy_of(sphere_model(1))

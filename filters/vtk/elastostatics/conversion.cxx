@@ -44,6 +44,15 @@ vtkFieldData* fieldsOf(vtkDataObject* data)
   return data->GetFieldData();
 }
 
+void requireFinite(const Eigen::Matrix3Xd& result, const std::string& name)
+{
+  if (!result.allFinite())
+  {
+    throw std::invalid_argument(
+      "the result '" + name + "' would not be finite: what is prescribed is too large");
+  }
+}
+
 void requireIndexable(vtkPolyData* surface)
 {
   if (surface->GetNumberOfPoints() > std::numeric_limits<int>::max() / 9 ||
@@ -223,6 +232,7 @@ void setFieldVector(vtkDataObject* data, const char* name, const Eigen::Vector3d
 
 void setFieldVectors(vtkDataObject* data, const char* name, const Eigen::Matrix3Xd& values)
 {
+  requireFinite(values, name);
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(3);
@@ -255,6 +265,7 @@ std::string fieldString(vtkDataObject* data, const char* name)
 
 void setPointVectors(vtkPolyData* surface, const char* name, const Eigen::Matrix3Xd& values)
 {
+  requireFinite(values, name);
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(3);

@@ -41,6 +41,7 @@ double fieldNumber(vtkDataObject* data, const char* name, const std::string& cur
 void setFieldNumber(vtkDataObject* data, const char* name, double value);
 void setFieldVector(vtkDataObject* data, const char* name, const Eigen::Vector3d& value);
 /// A tuple a column.
+/// @throws for values that are not finite, as do setFieldVector and setPointVectors.
 void setFieldVectors(vtkDataObject* data, const char* name, const Eigen::Matrix3Xd& values);
 void setFieldStrings(vtkDataObject* data, const char* name, const std::vector<std::string>& values);
 std::string fieldString(vtkDataObject* data, const char* name);

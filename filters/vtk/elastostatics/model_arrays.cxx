@@ -124,6 +124,9 @@ void addDiagnostics(vtkPolyData* surface, const Diagnostics& d)
   }
 }
 
+constexpr const char* SurfaceHasChanged =
+  ": the surface has changed since its Green's functions were computed; compute them again";
+
 /// A column matrix of field data, checked.
 struct MatrixView
 {
@@ -158,8 +161,7 @@ MatrixView matrixOf(vtkPolyData* surface, const char* name, vtkIdType columns)
   {
     throw std::invalid_argument(std::string("the field array '") + name + "' must hold " +
       std::to_string(rows) + " by " + std::to_string(3 * columns) +
-      " values for this surface: the surface has changed since its Green's functions were "
-      "computed; compute them again");
+      " values for this surface" + SurfaceHasChanged);
   }
   const bool isFloat = view.array->GetDataType() == VTK_FLOAT;
   if (!view.array->HasStandardMemoryLayout() ||
@@ -174,6 +176,19 @@ MatrixView matrixOf(vtkPolyData* surface, const char* name, vtkIdType columns)
       std::string("the field array '") + name + "' holds values that are not finite");
   }
   return view;
+}
+
+/// The vertex that a stored column belongs to.
+int storedNode(vtkPolyData* surface, double value, const std::string& what, vtkIdType index)
+{
+  try
+  {
+    return vertexNumber(value, surface->GetNumberOfPoints(), what, index);
+  }
+  catch (const std::invalid_argument& wrong)
+  {
+    throw std::invalid_argument(std::string(wrong.what()) + SurfaceHasChanged);
+  }
 }
 
 std::vector<int> columnNodesOf(vtkPolyData* surface)
@@ -193,8 +208,8 @@ std::vector<int> columnNodesOf(vtkPolyData* surface)
   std::vector<int> nodes;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    nodes.push_back(vertexNumber(array->GetComponent(i, 0), surface->GetNumberOfPoints(),
-      "the Green's function of column ", i));
+    nodes.push_back(
+      storedNode(surface, array->GetComponent(i, 0), "the Green's function of column ", i));
   }
   return nodes;
 }
@@ -206,8 +221,7 @@ std::vector<PatchColumn> patchColumnsOf(vtkPolyData* surface)
   for (vtkIdType i = 0; array && array->GetNumberOfComponents() == 2 && i < array->GetNumberOfTuples();
        ++i)
   {
-    const int node = vertexNumber(
-      array->GetComponent(i, 0), surface->GetNumberOfPoints(), "the patch column ", i);
+    const int node = storedNode(surface, array->GetComponent(i, 0), "the patch column ", i);
     columns.push_back(
       { node, wholeNumber(array->GetComponent(i, 1), "the patch of patch column ", i) });
   }
