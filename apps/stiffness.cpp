@@ -35,11 +35,22 @@ std::vector<double> freeNorms(vtkPolyData* surface) {
   return values;
 }
 
-/// Within 30 % of the mean, so that fields with and without masks show their unevenness alike.
-std::array<double, 2> commonRange(const std::vector<double>& values) {
-  double mean = 0;
-  for (double v : values) mean += v / values.size();
-  return {0.7 * mean, 1.3 * mean};
+/// The value that a fraction of the values is below.
+double quantile(std::vector<double> values, double fraction) {
+  const auto at = values.begin() + std::lround(fraction * (values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// The middle nine tenths, and at least within 30 % of the median, so that even fields with and
+/// without masks show their unevenness alike.
+std::array<double, 2> commonRange(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }),
+               values.end());
+  if (values.empty()) return {0, 1};
+  const double median = quantile(values, 0.5);
+  return {std::min(quantile(values, 0.05), 0.7 * median),
+          std::max(quantile(values, 0.95), 1.3 * median)};
 }
 
 void printSpread(const std::vector<double>& values) {
@@ -65,8 +76,13 @@ void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const Ma
             "norm of K\n(N/m)",
             false,
             {}};
-  view.range = options.range.size() == 2 ? std::array<double, 2>{options.range[0], options.range[1]}
-                                         : commonRange(freeNorms(surface));
+  if (options.range.empty()) {
+    const auto [low, high] = commonRange(freeNorms(surface));
+    view.range = {low, high};
+    view.logarithmic = high > 10 * low;
+  } else {
+    view.range = {options.range[0], options.range[1]};
+  }
   picture.views = {view};
   drawPicture(picture, options.path);
 }

@@ -9,6 +9,7 @@
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
@@ -19,6 +20,7 @@
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkScalarBarActor.h>
+#include <vtkScalarsToColors.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
@@ -56,24 +58,31 @@ vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
 }
 
 /// Colours and their range for a view: an array by viridis, or fixed against free.
-vtkSmartPointer<vtkColorTransferFunction> coloursOf(const View& view, vtkDataArray* array) {
+vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* array) {
   vtkNew<vtkColorTransferFunction> colours;
   if (view.colourBy.empty()) {
     colours->AddRGBPoint(0, kFree[0], kFree[1], kFree[2]);
     colours->AddRGBPoint(1, kFixed[0], kFixed[1], kFixed[2]);
     return colours;
   }
+  for (int i = 0; i < 9; ++i)
+    colours->AddRGBPoint(i / 8.0, kViridis[i][0], kViridis[i][1], kViridis[i][2]);
   double range[2] = {0, 1};
   if (view.range)
     std::copy_n(view.range->data(), 2, range);
   else
     array->GetRange(range, array->GetNumberOfComponents() > 1 ? -1 : 0);
   if (!(range[1] > range[0])) range[1] = range[0] + 1e-12 + 1e-6 * std::abs(range[0]);
-  for (int i = 0; i < 9; ++i)
-    colours->AddRGBPoint(range[0] + (range[1] - range[0]) * i / 8, kViridis[i][0], kViridis[i][1],
-                         kViridis[i][2]);
-  if (array->GetNumberOfComponents() > 1) colours->SetVectorModeToMagnitude();
-  return colours;
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(256);
+  for (int i = 0; i < 256; ++i) {
+    const double* colour = colours->GetColor(i / 255.0);
+    table->SetTableValue(i, colour[0], colour[1], colour[2]);
+  }
+  table->SetTableRange(range);
+  if (view.logarithmic) table->SetScaleToLog10();
+  if (array->GetNumberOfComponents() > 1) table->SetVectorModeToMagnitude();
+  return table;
 }
 
 void addSurface(vtkRenderer* renderer, const View& view) {
@@ -104,6 +113,7 @@ void addSurface(vtkRenderer* renderer, const View& view) {
   mapper->SelectColorArray(name.c_str());
   mapper->SetColorModeToMapScalars();  // bytes are values too, not colours
   mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
   mapper->InterpolateScalarsBeforeMappingOn();
   if (view.colourBy.empty()) return;
 

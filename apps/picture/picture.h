@@ -21,6 +21,7 @@ struct View {
   std::string barTitle;
   bool deformed = false;                       ///< moved by the array Displacement
   std::optional<std::array<double, 2>> range;  ///< of the colours; the array's by default
+  bool logarithmic = false;                    ///< equal ratios as equal steps of colour
 };
 
 /// Views side by side, seen along one direction.

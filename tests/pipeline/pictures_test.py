@@ -90,6 +90,17 @@ class Pictures(unittest.TestCase):
         single = self.draw("single.png", "stiffness", self.model)
         self.compare("stiffness.png", masked, single)
 
+    def test_of_a_stiffness_over_decades_shows_what_is_soft_and_what_is_stiff(self):
+        spatula = self.folder / "spatula.vtp"
+        model = palpate.precompute(palpate.refine(palpate.read(palpate.example("spatula"))), None, None)
+        palpate.write(model, spatula)
+        field = palpate.array(palpate.stiffness(model, radius_in_edges=2), "StiffnessNorm")
+        mean = field[palpate.array(model, "BoundaryType") == 0].mean()
+        stiffness = ("stiffness", spatula, "--radius-edges", 2)
+        right = self.draw("spatula.png", *stiffness)
+        wrong = self.draw("wrong.png", *stiffness, "--range", 0.7 * mean, 1.3 * mean)
+        self.compare("spatula.png", right, wrong)
+
 
 if __name__ == "__main__":
     unittest.main()
