@@ -294,8 +294,8 @@ std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional)
   if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
   {
     throw std::invalid_argument(std::string("the surface has no point array '") +
-      arrays::BoundaryType + "' with a value a point: say which vertices are fixed (vtkReferenceBoundaryConditions, "
-        "`palpate precompute --fix-...`)");
+      arrays::BoundaryType + "' with a value a point: say which vertices are fixed "
+                             "(vtkReferenceBoundaryConditions, `palpate precompute --fix-...`)");
   }
   std::vector<unsigned char> types;
   for (vtkIdType i = 0; i < count; ++i)

@@ -7,8 +7,8 @@
  * Each level splits every triangle in four and moves the vertices towards the smooth limit surface (C.
  * Loop 1987; James & Pai 2001, section 3.2; OpenMesh). Old vertices keep their numbers. A new vertex
  * is fixed if both ends of its edge are; other point data are the mean of the ends'. Triangles inherit
- * cell data. Green's functions, vertex areas and stiffnesses are dropped, as they belong to the coarse
- * mesh.
+ * cell data. Green's functions, vertex areas, stiffnesses, results of contacts and smooth patches that
+ * were found, not given, are dropped, as they belong to the coarse mesh.
  */
 
 #ifndef vtkLoopRefinement_h

@@ -188,13 +188,76 @@ std::vector<unsigned char> selectedPoints(vtkPolyData* surface, vtkSelection* se
   }
   return selected;
 }
+/// 1 for each point where an array is not zero.
+std::vector<unsigned char> pointsByArray(vtkPolyData* surface, const std::string& name)
+{
+  vtkDataArray* array = surface->GetPointData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 1 ||
+    array->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw std::invalid_argument("there is no point array '" + name + "' with a number a point");
+  }
+  std::vector<unsigned char> points;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    if (std::isnan(value))
+    {
+      throw std::invalid_argument(
+        "the value of the array '" + name + "' at point " + std::to_string(i) + " is not a number");
+    }
+    points.push_back(value != 0);
+  }
+  return points;
+}
+
+/// Writes a number to the field data unless it is NaN, and returns what is there then.
+double setOrKeep(vtkPolyData* surface, const char* name, double value)
+{
+  if (!vtkMath::IsNan(value))
+  {
+    palpate::convert::setFieldNumber(surface, name, value);
+  }
+  return palpate::convert::fieldNumber(surface, name, "give Young's modulus and Poisson's ratio");
+}
 } // namespace
+
+bool vtkReferenceBoundaryConditions::IsInFixedRegion(const double point[3]) const
+{
+  const Eigen::Vector3d x(point);
+  const auto isBehind = [&](const Six& h)
+  { return (x - Eigen::Vector3d(&h[0])).dot(Eigen::Vector3d(&h[3])) <= 0; };
+  const auto isInBox = [&](const Six& b)
+  {
+    return x.x() >= b[0] && x.x() <= b[1] && x.y() >= b[2] && x.y() <= b[3] && x.z() >= b[4] &&
+      x.z() <= b[5];
+  };
+  const auto isInBall = [&](const Four& s) { return (x - Eigen::Vector3d(&s[0])).norm() <= s[3]; };
+  return std::any_of(this->HalfSpaces.begin(), this->HalfSpaces.end(), isBehind) ||
+    std::any_of(this->Boxes.begin(), this->Boxes.end(), isInBox) ||
+    std::any_of(this->Spheres.begin(), this->Spheres.end(), isInBall) ||
+    (this->FixedFunction && this->FixedFunction->FunctionValue(point) <= 0);
+}
+
+std::vector<unsigned char> vtkReferenceBoundaryConditions::FindFixedPoints(
+  vtkPolyData* surface, vtkSelection* selection) const
+{
+  const vtkIdType count = surface->GetNumberOfPoints();
+  const std::vector<unsigned char> none(count, 0);
+  const auto selected = selection ? selectedPoints(surface, selection) : none;
+  const auto marked =
+    this->FixedArrayName.empty() ? none : pointsByArray(surface, this->FixedArrayName);
+  std::vector<unsigned char> fixed;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    fixed.push_back(selected[i] || marked[i] || this->IsInFixedRegion(surface->GetPoint(i)));
+  }
+  return fixed;
+}
 
 void vtkReferenceBoundaryConditions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
-  namespace arrays = palpate::arrays;
-  const vtkIdType count = input->GetNumberOfPoints();
   requireSensibleRegions(this->HalfSpaces, this->Boxes, this->Spheres);
   palpate::convert::removeResponses(output);
   vtkSelection* selection = vtkSelection::GetData(inputs[1]);
@@ -202,59 +265,9 @@ void vtkReferenceBoundaryConditions::Compute(
     !this->HalfSpaces.empty() || !this->Boxes.empty() || !this->Spheres.empty();
   if (hasRegions || selection || this->FixedFunction || !this->FixedArrayName.empty())
   {
-    std::vector<unsigned char> types(count, 0);
-    if (selection)
-    {
-      types = selectedPoints(input, selection);
-    }
-    vtkDataArray* array = this->FixedArrayName.empty()
-      ? nullptr
-      : input->GetPointData()->GetArray(this->FixedArrayName.c_str());
-    if (!this->FixedArrayName.empty() &&
-      (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != count))
-    {
-      throw std::invalid_argument(
-        "there is no point array '" + this->FixedArrayName + "' with a number a point");
-    }
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const Eigen::Vector3d x(input->GetPoint(i));
-      if (array && std::isnan(array->GetComponent(i, 0)))
-      {
-        throw std::invalid_argument("the value of the array '" + this->FixedArrayName +
-          "' at point " + std::to_string(i) + " is not a number");
-      }
-      bool fixed = array && array->GetComponent(i, 0) != 0;
-      for (const auto& h : this->HalfSpaces)
-      {
-        fixed = fixed || (x - Eigen::Vector3d(&h[0])).dot(Eigen::Vector3d(&h[3])) <= 0;
-      }
-      for (const auto& b : this->Boxes)
-      {
-        fixed = fixed ||
-          (x.x() >= b[0] && x.x() <= b[1] && x.y() >= b[2] && x.y() <= b[3] && x.z() >= b[4] &&
-            x.z() <= b[5]);
-      }
-      for (const auto& s : this->Spheres)
-      {
-        fixed = fixed || (x - Eigen::Vector3d(&s[0])).norm() <= s[3];
-      }
-      fixed = fixed ||
-        (this->FixedFunction && this->FixedFunction->FunctionValue(x.x(), x.y(), x.z()) <= 0);
-      types[i] = types[i] || fixed;
-    }
-    palpate::convert::setBoundaryTypes(output, types);
+    palpate::convert::setBoundaryTypes(output, this->FindFixedPoints(input, selection));
   }
-
-  const auto keepOrSet = [&](const char* name, double value)
-  {
-    if (!vtkMath::IsNan(value))
-    {
-      palpate::convert::setFieldNumber(output, name, value);
-    }
-    return palpate::convert::fieldNumber(output, name, "give Young's modulus and Poisson's ratio");
-  };
-  const double young = keepOrSet(arrays::YoungsModulus, this->YoungsModulus);
-  const double poisson = keepOrSet(arrays::PoissonRatio, this->PoissonRatio);
+  const double young = setOrKeep(output, palpate::arrays::YoungsModulus, this->YoungsModulus);
+  const double poisson = setOrKeep(output, palpate::arrays::PoissonRatio, this->PoissonRatio);
   palpate::Material(young, poisson); // checks them
 }

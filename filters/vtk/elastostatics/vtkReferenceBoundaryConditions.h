@@ -7,7 +7,8 @@
  * Writes the point array `BoundaryType` (0 free, 1 fixed; the reference boundary value problem of James
  * & Pai 2001, section 4.1) and the material as field data. A vertex is fixed if any of the given
  * sources says so: an array, half-spaces, boxes, spheres, an implicit function, a selection (second
- * input, optional). Without any source the input's own BoundaryType array stays.
+ * input, optional). Without any source the input's own BoundaryType array stays. Results of contacts
+ * and of stiffness are dropped, as they belong to another problem.
  */
 
 #ifndef vtkReferenceBoundaryConditions_h
@@ -21,6 +22,7 @@
 #include <vector> // for the regions
 
 class vtkImplicitFunction;
+class vtkSelection;
 
 class PALPATEELASTOSTATICS_EXPORT vtkReferenceBoundaryConditions : public vtkElastostaticAlgorithm
 {
@@ -80,6 +82,9 @@ protected:
 private:
   vtkReferenceBoundaryConditions(const vtkReferenceBoundaryConditions&) = delete;
   void operator=(const vtkReferenceBoundaryConditions&) = delete;
+
+  bool IsInFixedRegion(const double point[3]) const;
+  std::vector<unsigned char> FindFixedPoints(vtkPolyData* surface, vtkSelection* selection) const;
 
   double YoungsModulus, PoissonRatio;
   std::string FixedArrayName;
