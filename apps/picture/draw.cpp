@@ -13,6 +13,7 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <Eigen/Geometry>
 #include <fstream>
 #include <stdexcept>
 
@@ -41,7 +43,7 @@ namespace palpate::app {
 namespace {
 
 constexpr double kInk[3] = {0.13, 0.13, 0.16}, kPaper[3] = {1, 1, 1};
-constexpr double kFree[3] = {0.87, 0.73, 0.62}, kFixed[3] = {0.38, 0.44, 0.55};
+constexpr double kFree[3] = {0.87, 0.73, 0.62}, kFixed[3] = {0.25, 0.42, 0.72};
 
 vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
   vtkNew<vtkPolyData> shape;
@@ -123,9 +125,10 @@ void addSurface(vtkRenderer* renderer, const View& view) {
   bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.3g");
   bar->SetVerticalTitleSeparation(12);
+  bar->SetTextPad(6);
   bar->UnconstrainedFontSizeOn();
-  bar->SetPosition(0.84, 0.12);
-  bar->SetWidth(0.1);
+  bar->SetPosition(0.83, 0.12);
+  bar->SetWidth(0.13);
   bar->SetHeight(0.72);
   for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
     text->SetColor(const_cast<double*>(kInk));
@@ -144,31 +147,44 @@ void addTitle(vtkRenderer* renderer, const std::string& title) {
   text->GetTextProperty()->SetColor(const_cast<double*>(kInk));
   text->GetTextProperty()->SetJustificationToCentered();
   text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  text->SetPosition(0.47, 0.93);
+  text->SetPosition(0.42, 0.93);
   renderer->AddActor2D(text);
 }
 
-/// One camera for all views, so that they can be compared.
+/// Where a view's points are drawn, deformed or not.
+vtkSmartPointer<vtkPoints> pointsOf(const View& view) {
+  return shapeOf(view)->GetPoints();
+}
+
+/// One camera for all views, so that they can be compared: it holds what they show in the left of a
+/// viewport, beside the colour bar.
 vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
-  const double* bounds = picture.views.front().surface->GetBounds();
-  double centre[3], radius = 0;
-  for (int c = 0; c < 3; ++c) {
-    centre[c] = (bounds[2 * c] + bounds[2 * c + 1]) / 2;
-    radius += std::pow(bounds[2 * c + 1] - bounds[2 * c], 2) / 4;
+  constexpr double left = 0.42, width = 0.74, height = 0.78;  // of the viewport: middle and extent
+  const Eigen::Vector3d towards = Eigen::Vector3d(picture.towardsViewer.data()).normalized();
+  const bool fromAbove = std::abs(towards.z()) > 0.95;
+  const Eigen::Vector3d upwards = fromAbove ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d axes;  // right, up, towards the viewer
+  axes << upwards.cross(towards).normalized(), towards.cross(upwards.cross(towards)).normalized(),
+      towards;
+  Eigen::AlignedBox3d box;
+  for (const View& view : picture.views) {
+    const auto points = pointsOf(view);
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      box.extend(axes.transpose() * Eigen::Vector3d(points->GetPoint(i)));
   }
-  radius = std::sqrt(radius);
-  const auto& d = picture.towardsViewer;
-  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const Eigen::Vector3d half = box.sizes() / 2;
+  const double depth = half.norm();
+  const double scale = std::max({half.y() / height, half.x() / (width * aspect), 1e-300});
+  const Eigen::Vector3d centre =
+      axes * (box.center() + Eigen::Vector3d((1 - 2 * left) * scale * aspect, 0, 0));
+  const Eigen::Vector3d eye = centre + 4 * depth * towards;
   vtkNew<vtkCamera> camera;
-  camera->SetFocalPoint(centre);
-  camera->SetPosition(centre[0] + 4 * radius * d[0] / length,
-                      centre[1] + 4 * radius * d[1] / length,
-                      centre[2] + 4 * radius * d[2] / length);
-  const bool fromAbove = std::abs(d[2]) > 0.95 * length;
-  camera->SetViewUp(0, fromAbove ? 1 : 0, fromAbove ? 0 : 1);
+  camera->SetFocalPoint(centre.data());
+  camera->SetPosition(eye.data());
+  camera->SetViewUp(upwards.data());
   camera->ParallelProjectionOn();
-  camera->SetParallelScale(radius * std::max(1.0, 1 / (0.8 * aspect)));
-  camera->SetClippingRange(0.5 * radius, 8 * radius);
+  camera->SetParallelScale(scale);
+  camera->SetClippingRange(depth, 8 * depth);
   return camera;
 }
 
