@@ -5,6 +5,7 @@
 #include <vtkPointContact.h>
 #include <vtkPolyData.h>
 
+#include <array>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
@@ -31,6 +32,13 @@ void printContact(vtkPolyData* pressed) {
   printRow("contact force, N", vectorText(force.data()));
   printRow("its length, N", number(std::hypot(force[0], force[1], force[2])));
   printRow("contact point", vectorText(from.data()));
+  std::array<double, 3> moved, asked;
+  for (int c = 0; c < 3; ++c) {
+    moved[c] = elastic[c] - from[c];
+    asked[c] = haptic[c] - from[c];
+  }
+  printRow("moves by", vectorText(moved.data()));
+  printRow("probe moves by", vectorText(asked.data()));
   printRow("deformed contact point", vectorText(elastic.data()));
   printRow("probe", vectorText(haptic.data()));
 }

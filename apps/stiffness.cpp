@@ -25,15 +25,25 @@ struct Options {
   PictureOptions picture;
 };
 
-/// The norms of the free vertices' stiffness.
-std::vector<double> freeNorms(vtkPolyData* surface) {
-  vtkDataArray* norm = surface->GetPointData()->GetArray("StiffnessNorm");
-  vtkDataArray* types = surface->GetPointData()->GetArray("BoundaryType");
-  std::vector<double> values;
-  for (vtkIdType i = 0; i < norm->GetNumberOfTuples(); ++i)
-    if (types->GetComponent(i, 0) == 0) values.push_back(norm->GetComponent(i, 0));
-  return values;
-}
+/// What the stiffness field holds at free vertices.
+struct Field {
+  explicit Field(vtkPolyData* surface) {
+    vtkDataArray* norm = surface->GetPointData()->GetArray("StiffnessNorm");
+    vtkDataArray* types = surface->GetPointData()->GetArray("BoundaryType");
+    vtkDataArray* isLimited = surface->GetPointData()->GetArray("StiffnessLimited");
+    for (vtkIdType i = 0; i < norm->GetNumberOfTuples(); ++i) {
+      if (types->GetComponent(i, 0) != 0) continue;
+      const double value = norm->GetComponent(i, 0);
+      if (std::isnan(value))
+        ++missing;
+      else
+        norms.push_back(value);
+      limited += isLimited->GetComponent(i, 0) != 0;
+    }
+  }
+  std::vector<double> norms;
+  int missing = 0, limited = 0;  ///< vertices without stiffness, and with that of the mask's mean
+};
 
 /// The value that a fraction of the values is below.
 double quantile(std::vector<double> values, double fraction) {
@@ -44,21 +54,22 @@ double quantile(std::vector<double> values, double fraction) {
 
 /// The middle nine tenths, and at least within 30 % of the median, so that even fields with and
 /// without masks show their unevenness alike.
-std::array<double, 2> commonRange(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }),
-               values.end());
+std::array<double, 2> commonRange(const std::vector<double>& values) {
   if (values.empty()) return {0, 1};
   const double median = quantile(values, 0.5);
   return {std::min(quantile(values, 0.05), 0.7 * median),
           std::max(quantile(values, 0.95), 1.3 * median)};
 }
 
-void printSpread(const std::vector<double>& values) {
+void printSpread(const Field& field) {
+  const std::vector<double>& values = field.norms;
   double mean = 0, square = 0;
   for (double v : values) mean += v / values.size();
   for (double v : values) square += (v - mean) * (v - mean) / values.size();
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  printRow("free vertices", std::to_string(values.size()));
+  printRow("free vertices", std::to_string(values.size() + field.missing));
+  if (field.missing > 0) printRow("of these without stiffness", std::to_string(field.missing));
+  if (field.limited > 0) printRow("limited by their mask's mean", std::to_string(field.limited));
   printRow("|K| smallest, N/m", number(*low));
   printRow("|K| mean, N/m", number(mean));
   printRow("|K| largest, N/m", number(*high));
@@ -77,7 +88,7 @@ void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const Ma
             false,
             {}};
   if (options.range.empty()) {
-    const auto [low, high] = commonRange(freeNorms(surface));
+    const auto [low, high] = commonRange(Field(surface).norms);
     view.range = {low, high};
     view.logarithmic = high > 10 * low;
   } else {
@@ -111,7 +122,7 @@ void addStiffness(CLI::App& program) {
     const auto field = run(filter);
     if (!options->output.empty()) writeSurface(field, options->output);
     if (!options->picture.path.empty()) drawStiffness(field, options->picture, options->mask);
-    printSpread(freeNorms(field));
+    printSpread(Field(field));
   });
 }
 

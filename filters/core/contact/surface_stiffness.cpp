@@ -55,6 +55,20 @@ Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
   return (matrix + matrix.transpose()) / 2;
 }
 
+/// The symmetric S whose inverse moves the vertex most nearly as it is told to: the one that makes
+/// |(B - S) M^-1|_F least.
+Eigen::Matrix3d symmetrised(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& mean) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(mean);
+  const Eigen::Matrix3d& axes = eigen.eigenvectors();
+  const Eigen::Vector3d weight = eigen.eigenvalues().cwiseAbs2();
+  const Eigen::Matrix3d b = axes.transpose() * compliance * axes;
+  Eigen::Matrix3d s = b;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != j) s(i, j) = (weight[i] * b(i, j) + weight[j] * b(j, i)) / (weight[i] + weight[j]);
+  return symmetricPart(axes * s * axes.transpose());
+}
+
 }  // namespace
 
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
@@ -73,7 +87,7 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
     apart += share * mask.density[i] * own;
   }
   const Raised least = raisedTo(symmetricPart(apart), symmetricPart(mean));
-  const Raised served = raisedTo(kLeastShare * least.matrix, symmetricPart(compliance));
+  const Raised served = raisedTo(kLeastShare * least.matrix, symmetrised(compliance, least.matrix));
   if (Eigen::LLT<Eigen::Matrix3d>(served.matrix).info() != Eigen::Success)
     throw std::runtime_error("the compliance at vertex " + std::to_string(vertex) +
                              " is not positive definite: the surface is inside out there, or its "

@@ -14,14 +14,18 @@
 namespace palpate {
 
 /// The compliance of a masked vertex, u_i = B f with B = sum over j of rho_j Xi_ij (eq. 32), and
-/// the stiffness that is served: the inverse of its symmetric part.
+/// the stiffness that is served, the inverse of a symmetric S.
 ///
-/// B is no energy's second derivative: on thin or coarse bodies its symmetric part may be far from
-/// what resists the force, or indefinite. The compliance of the mean displacement under the same
-/// mask, M = sum over i of a_i rho_i times that of row i, always is one. In no direction is the
-/// served compliance less than half of M; where the mesh resolves a body, vertices yield more than
-/// their surroundings and nothing changes. M in turn is at least what the mask's nodes yield one by
-/// one, the sum of a_i rho_i^2 Xi_ii.
+/// B is no energy's second derivative, but the compliance of the mean displacement under the same
+/// mask is one: M = sum over i of a_i rho_i times that of row i. S is the symmetric matrix nearest
+/// to B in the sense that a displacement d under the force S^-1 d comes out as d: it makes |(B - S)
+/// M^-1|_F least. In the principal axes of M its entries are those of B, each pair averaged with
+/// the squares of both compliances as weights. (The plain mean would let a stiff direction push a
+/// soft one: along the blade of a spatula, asked for 1 mm, by 2.6 mm across.)
+///
+/// In no direction is S less than half of M; where the mesh resolves a body, vertices yield more
+/// than their surroundings and nothing changes. M in turn is at least what the mask's nodes yield
+/// one by one, the sum of a_i rho_i^2 Xi_ii.
 struct VertexStiffness {
   Eigen::Matrix3d stiffness;  ///< K^E, N/m, symmetric positive definite
   double asymmetry;           ///< |B - B^T|_F / |B|_F before symmetrising

@@ -36,7 +36,8 @@ public:
 
   ///@{
   /**
-   * What is prescribed: the displacement of the contact (m), or the force on the body (N). Setting one
+   * What is prescribed: the displacement of the probe (m), which the force follows by eq. 34 and the
+   * contact by eq. 35 (between vertices by less), or the force on the body (N). Setting one
    * chooses it.
    */
   void SetDisplacement(double x, double y, double z);

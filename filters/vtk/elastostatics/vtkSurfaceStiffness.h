@@ -7,8 +7,11 @@
  * Adds the point arrays `Stiffness` (3 by 3, row by row, N/m; symmetric positive definite),
  * `StiffnessNorm` (Frobenius), `StiffnessAsymmetry` (relative, of the vertex's compliance before it is
  * symmetrised: zero for single vertices of reciprocal Green's functions, and otherwise larger the more
- * the surface varies under the mask), `HapticRatio` (of K^H to K^E) and `VertexArea`. Fixed vertices
- * show the rigid stiffness; vertices whose mask needs columns that were not computed show NaN. Input: a
+ * the surface varies under the mask), `StiffnessLimited` (1 where in some direction it is taken from the
+ * mean displacement under the mask, as the vertex's own would be more than twice as stiff or no
+ * stiffness at all: on walls that the mesh does not resolve), `HapticRatio` (of K^H to K^E) and
+ * `VertexArea`. Fixed vertices show the rigid stiffness; vertices whose mask needs columns that were not
+ * computed, or whose compliance is not positive definite all the same, show NaN. Input: a
  * surface with its Green's functions. James & Pai 2001, eq. 32, 33 and section 6.4; fig. 7 is this array
  * without and with a mask.
  */
