@@ -186,6 +186,7 @@ class Interruption(unittest.TestCase):
         for progress in ("None", "lambda fraction, stage: None"):
             process = subprocess.Popen([sys.executable, "-c", INTERRUPTED.format(progress=progress)],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.addCleanup(process.kill)
             self.assertEqual(process.stdout.readline(), "begin\n")
             time.sleep(0.5)
             process.send_signal(signal.SIGINT)
