@@ -58,7 +58,8 @@ std::pair<double, double> rigidSphereErrors(int levels, double nu) {
     turn.col(v) = Eigen::Vector3d::UnitZ().cross(mesh->points().col(v));
   }
   const auto wrench = [&](const Eigen::Matrix3Xd& values) {
-    return wrenchOf(*greens, *mesh, nodes, solver.solve(switchWholeNodes(nodes, values)).traction,
+    return wrenchOf(*greens, mesh->points(), nodes,
+                    solver.solve(switchWholeNodes(nodes, values)).traction,
                     Eigen::Vector3d::Zero());
   };
   const double force = 24 * kPi * g * (1 - nu) / (5 - 6 * nu), torque = 8 * kPi * g;

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "bem/boundary_element_method.h"
+#include "contact/capacitance_solver.h"
 #include "support/problems.h"
 #include "support/refusals.h"
 
@@ -108,6 +111,37 @@ TEST(Equilibrium, ReactionsBalanceEveryLoadToRounding) {
   const Eigen::Matrix3Xd solved = solveReferenceProblem(*greens, given);
   for (int v : model.conditions().fixedNodes()) sum += greens->vertexArea(v) * solved.col(v);
   EXPECT_LT(sum.norm(), 1e-12 * given.norm());
+}
+
+TEST(Equilibrium, ReactionsOfAClampedBeamBearItsMoment) {
+  const auto base = [](const Eigen::Vector3d& x) { return x.z() < 1e-9; };
+  for (const int divisions : {2, 3}) {
+    const Shape shape = box({1, 1, 4}, {divisions, divisions, 4 * divisions});
+    const ElasticModel model = makeModel(shape, base, 1, 0.3);
+    const auto greens = computeGreens(model, raw());
+    // A shear on every patch of the end's inner vertices, where it has one patch only.
+    Eigen::Matrix3Xd given = Eigen::Matrix3Xd::Zero(3, greens->nodeCount());
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = force;
+    for (int v : model.conditions().freeNodes()) {
+      const Eigen::Vector3d x = shape.points.col(v);
+      if (x.z() < 4 - 1e-9 || x.head<2>().minCoeff() < 1e-9 || x.head<2>().maxCoeff() > 1 - 1e-9)
+        continue;
+      given.col(v) = Eigen::Vector3d(1, 0.3, -0.2);
+      Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+      for (int f : model.mesh().trianglesOfVertex(v))
+        arm += model.mesh().triangleAreas()[f] / 12 *
+               (shape.points(Eigen::all, shape.triangles.col(f)).rowwise().sum() + x);
+      force += greens->vertexArea(v) * given.col(v);
+      torque += arm.cross(Eigen::Vector3d(given.col(v)));
+    }
+    const Eigen::Matrix3Xd solved = solveReferenceProblem(*greens, given);
+    const Eigen::Matrix3Xd points =
+        forcePoints(model.mesh(), model.conditions(), model.smoothPatches());
+    const Wrench reaction =
+        wrenchOf(*greens, points, model.conditions().fixedNodes(), solved, Eigen::Vector3d::Zero());
+    EXPECT_LT((reaction.force + force).norm(), 1e-12 * force.norm());
+    EXPECT_LT((reaction.torque + torque).norm(), 1e-10 * torque.norm()) << divisions;
+  }
 }
 
 TEST(Reciprocity, DefectOfTheRawMatrixFallsWithRefinementAndIsGoneWhenServed) {

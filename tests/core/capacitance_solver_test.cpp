@@ -358,15 +358,15 @@ TEST_F(CapacitanceSolverOfASphere, AValueWhoseColumnWasNotComputedIsRefused) {
 TEST_F(CapacitanceSolverOfASphere, AWrenchIsTheSumOfForcesAndOfTheirMoments) {
   const Eigen::Matrix3Xd traction = randomValues();
   const Eigen::Vector3d centre(0.3, -2, 1);
-  const Wrench one = wrenchOf(*body_->greens, *body_->mesh, {4}, traction, centre);
+  const Wrench one = wrenchOf(*body_->greens, body_->mesh->points(), {4}, traction, centre);
   const Eigen::Vector3d force = body_->mesh->vertexAreas()[4] * traction.col(4);
   EXPECT_LE((one.force - force).norm(), 1e-15);
   EXPECT_LE((one.torque - (body_->mesh->points().col(4) - centre).cross(force)).norm(), 1e-15);
   // Moving the centre adds the moment of the whole force; rounding of 42 terms.
   std::vector<int> all = randomSubset(nodeCount(), nodeCount(), random_);
-  const Wrench here = wrenchOf(*body_->greens, *body_->mesh, all, traction, centre);
+  const Wrench here = wrenchOf(*body_->greens, body_->mesh->points(), all, traction, centre);
   const Wrench there =
-      wrenchOf(*body_->greens, *body_->mesh, all, traction, Eigen::Vector3d::Zero());
+      wrenchOf(*body_->greens, body_->mesh->points(), all, traction, Eigen::Vector3d::Zero());
   EXPECT_LE((here.force - there.force).norm(), 1e-14);
   EXPECT_LE((there.torque - here.torque - centre.cross(here.force)).norm(), 1e-14);
   EXPECT_GT(here.force.norm(), 1e-3);

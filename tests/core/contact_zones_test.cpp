@@ -66,8 +66,8 @@ TEST_F(ContactZonesOfASphere, TractionsForceAndTorqueAreThoseOfTheFullSolution) 
     // f = K_S u_S of eq. 27, and the torque like it, zone by zone
     for (int z = 0; z < 2; ++z) {
       const Eigen::VectorXd wrench = contact.bufferStiffness(z) * moved.reshaped();
-      const Wrench whole =
-          wrenchOf(*raw_->greens, *raw_->mesh, zones[z].nodes, full.traction, zones[z].centre);
+      const Wrench whole = wrenchOf(*raw_->greens, raw_->mesh->points(), zones[z].nodes,
+                                    full.traction, zones[z].centre);
       EXPECT_LE((wrench.head<3>() - whole.force).norm(), kRounding * full.traction.norm());
       EXPECT_LE((wrench.tail<3>() - whole.torque).norm(), kRounding * full.traction.norm());
       EXPECT_GT(whole.force.norm(), 1e-3);
@@ -95,8 +95,8 @@ TEST_F(ContactZonesOfASphere, EachZoneFeelsRigidMotionsOfTheOther) {
     }
     const BoundarySolution full = solver.solve(switchWholeNodes(nodes, moved));
     for (int felt = 0; felt < 2; ++felt) {
-      const Wrench wrench = wrenchOf(*raw_->greens, *raw_->mesh, zones[felt].nodes, full.traction,
-                                     zones[felt].centre);
+      const Wrench wrench = wrenchOf(*raw_->greens, raw_->mesh->points(), zones[felt].nodes,
+                                     full.traction, zones[felt].centre);
       const Eigen::VectorXd column = stiffness.block<6, 1>(6 * felt, motion);
       EXPECT_LE((column.head<3>() - wrench.force).norm(), kRounding * full.traction.norm());
       EXPECT_LE((column.tail<3>() - wrench.torque).norm(), kRounding * full.traction.norm());

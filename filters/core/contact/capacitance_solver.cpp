@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -227,16 +228,41 @@ Eigen::Matrix3Xd CapacitanceSolver::solveAt(const BoundaryValues& values,
   return response.reshaped(3, rows.size());
 }
 
-Wrench wrenchOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
+Wrench wrenchOf(const GreensFunctions& greens, const Eigen::Matrix3Xd& points,
                 const std::vector<int>& nodes, const Eigen::Matrix3Xd& traction,
                 const Eigen::Vector3d& centre) {
   Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (int node : nodes) {
     const Eigen::Vector3d force = greens.vertexArea(node) * traction.col(node);
     wrench.force += force;
-    wrench.torque += (mesh.points().col(node) - centre).cross(force);
+    wrench.torque += (points.col(node) - centre).cross(force);
   }
   return wrench;
+}
+
+Eigen::Matrix3Xd forcePoints(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                             const Eigen::VectorXi& smoothPatches) {
+  Eigen::Matrix3Xd points = mesh.points();
+  for (int v : conditions.fixedNodes()) {
+    std::set<int> bearing;  // patches with a wholly fixed triangle at the vertex
+    for (int f : mesh.trianglesOfVertex(v)) {
+      const auto corners = mesh.triangles().col(f);
+      if (std::all_of(corners.begin(), corners.end(), [&](int c) { return conditions.isFixed(c); }))
+        bearing.insert(smoothPatches[f]);
+    }
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    double area = 0;
+    for (int f : mesh.trianglesOfVertex(v)) {
+      if (!bearing.empty() && bearing.count(smoothPatches[f]) == 0) continue;
+      // The hat function's integral of x: a quarter from each corner, and another from the vertex.
+      const Eigen::Vector3d sum =
+          mesh.points()(Eigen::all, mesh.triangles().col(f)).rowwise().sum() + mesh.points().col(v);
+      moment += mesh.triangleAreas()[f] * sum / 4;
+      area += mesh.triangleAreas()[f];
+    }
+    points.col(v) = moment / area;
+  }
+  return points;
 }
 
 }  // namespace palpate

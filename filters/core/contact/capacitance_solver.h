@@ -79,9 +79,20 @@ struct Wrench {
   Eigen::Vector3d force, torque;  ///< N, N m about the given centre
 };
 
+/// @param points    3 by #nodes, where the nodes' forces act: the vertices, or forcePoints.
 /// @param traction  3 by #nodes.
-Wrench wrenchOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
+Wrench wrenchOf(const GreensFunctions& greens, const Eigen::Matrix3Xd& points,
                 const std::vector<int>& nodes, const Eigen::Matrix3Xd& traction,
                 const Eigen::Vector3d& centre);
+
+/// Where the nodes' forces act. A free vertex is moved as a whole: at the vertex, so that its
+/// torque is conjugate to turning the vertices. A fixed one bears a reaction that the boundary
+/// element method spreads by its hat function over the patches on which its traction is unknown: at
+/// the mean of the surface there, so that the support's torque balances the loads (but for vertices
+/// at which several such patches meet, whose tractions are not told apart).
+/// @param smoothPatches  #F.
+/// @return 3 by #V.
+Eigen::Matrix3Xd forcePoints(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                             const Eigen::VectorXi& smoothPatches);
 
 }  // namespace palpate

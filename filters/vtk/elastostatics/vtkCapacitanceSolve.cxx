@@ -308,6 +308,8 @@ void vtkCapacitanceSolve::Compute(
   const palpate::BoundarySolution solution = solveWithLoads(prepared.Solver, problem.Values,
     prepared.Served, input, this->TriangleTractionArrayName);
 
+  const Eigen::Matrix3Xd points = palpate::forcePoints(
+    mesh, greens.info().conditions, prepared.Served.smoothPatches);
   Eigen::Matrix3Xd forces(3, problem.Zones.size()), torques(3, problem.Zones.size());
   int zone = 0;
   for (const auto& [number, members] : problem.Zones)
@@ -319,7 +321,7 @@ void vtkCapacitanceSolve::Compute(
       centre += mesh.points().col(node) / nodes.size();
     }
     const palpate::Wrench wrench =
-      palpate::wrenchOf(greens, mesh, nodes, solution.traction, centre);
+      palpate::wrenchOf(greens, points, nodes, solution.traction, centre);
     forces.col(zone) = wrench.force;
     torques.col(zone++) = wrench.torque;
   }

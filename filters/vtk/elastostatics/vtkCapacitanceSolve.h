@@ -18,9 +18,9 @@
  * Output: the surface with `Displacement` and `Traction` at all vertices, and the field arrays
  * `ContactForce` and `ContactTorque` (about the centroid of the zone's vertices), a tuple a zone, over
  * all vertices of the zone whose displacement is prescribed, and `ContactCondition`, the condition
- * number of the capacitance matrix. Forces are vertex area times traction, at the vertices (eq. 27):
- * their sum is exact, their moment is the work-conjugate of turning the vertices, and on a support's
- * sharp edges off by the order of an edge's length. D. L. James and D. K. Pai 2001, sections 4 and 5. Inverses of the
+ * number of the capacitance matrix. Forces are vertex area times traction (eq. 27). Those of contacts
+ * act at the vertices, so that their torque is conjugate to turning the vertices; reactions of the
+ * support act where its tractions do, so that they balance the loads. D. L. James and D. K. Pai 2001, sections 4 and 5. Inverses of the
  * last constraint sets are kept while the input stays.
  */
 
