@@ -69,7 +69,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         Material inside the surface, or everywhere outside it.
     reciprocal : bool
         Symmetrise the compliance between free vertices, so that all that is served comes from one
-        energy. Distributed loads on coarse or sharp-edged meshes are more accurate without.
+        energy. Distributed loads on coarse or sharp-edged meshes are more accurate without, pressures on
+        nearly incompressible bodies much more so. Above a Poisson ratio of 0.45 the change of volume is
+        kept, which takes the columns of all free vertices.
     smooth_angle : float
         Traction may jump at edges sharper than this, degrees, unless the surface has a cell array
         `SmoothPatch`. 180 for one traction a vertex.
@@ -312,8 +314,8 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     vtkPolyData
         The model with `Stiffness` (n by 9, the matrix row by row, N/m), `StiffnessNorm` (n,
         Frobenius), `StiffnessAsymmetry`, `StiffnessLimited` and `HapticRatio` (n). Where a vertex's mask
-        needs columns that were not computed, or nothing positive definite is left of its compliance
-        (walls far thinner than the edges are long), its stiffness is NaN.
+        needs columns that were not computed, or its compliance is that of no stiffness (walls far
+        thinner than the edges are long), it is NaN.
 
     Raises
     ------

@@ -190,7 +190,8 @@ class EveryFilter(unittest.TestCase):
     def test_drops_results_that_hold_no_longer(self):
         model = palpate.stiffness(palpate.press(sphere_model(1), (0, 0, 1), force=(0, 0, -1)))
         model = palpate.solve(model, [], [])
-        stiff = ("Stiffness", "StiffnessNorm", "StiffnessAsymmetry", "HapticRatio")
+        stiff = ("Stiffness", "StiffnessNorm", "StiffnessAsymmetry", "StiffnessLimited",
+                 "HapticRatio")
         pressed = ("ContactPoint", "ElasticContactPoint", "HapticContactPoint")
         solved = ("Displacement", "Traction", "ContactForce", "ContactTorque", "ContactCondition")
 

@@ -280,14 +280,15 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
                 patchMatrix.data());
     matrix.truncate(block * info.columnNodes.size());
   }
-  // Until then the change of volume is not small enough to be lost, and a column does not depend on
-  // which others were asked for.
-  constexpr double nearlyIncompressible = 0.45;
+  // Up to nu = 0.45 the change of volume is not small enough to be lost, and a column does not
+  // depend on which others were asked for; from 0.49 on it is kept.
+  const double keptShare =
+      std::clamp((model.material().poissonRatio() - 0.45) / (0.49 - 0.45), 0.0, 1.0);
   std::vector<Eigen::Matrix3Xd> kept;
-  if (model.domain() == Domain::Interior && model.material().poissonRatio() > nearlyIncompressible)
-    kept = unitPressures(model.mesh());
-  info.diagnostics.reciprocityDefect = makeReciprocal(
-      matrix.data(), info.conditions, info.vertexAreas, info.columnNodes, options.reciprocal, kept);
+  if (model.domain() == Domain::Interior && keptShare > 0) kept = unitPressures(model.mesh());
+  info.diagnostics.reciprocityDefect =
+      makeReciprocal(matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
+                     options.reciprocal, kept, keptShare);
   info.reciprocal = options.reciprocal;
   if (model.domain() == Domain::Interior) {
     const DenseGreensFunctions<Scalar> view(info, matrix.data(), patchMatrix.data(), nullptr);

@@ -92,7 +92,8 @@ CapacitanceMatrix::CapacitanceMatrix(std::shared_ptr<const GreensFunctions> gree
   gatherAll();
   const bool regular = refactor();
   const double conditionNumber = regular ? condition() : std::numeric_limits<double>::infinity();
-  if (!(conditionNumber < kLargestCondition)) {
+  // The noise of what is stored must not pass for a solution.
+  if (!(conditionNumber < std::min(kLargestCondition, 0.5 / greens_->epsilon()))) {
     const auto [a, b] = weakestPair();
     std::ostringstream text;
     text << "the constraints cannot be told apart (condition number " << conditionNumber

@@ -101,7 +101,7 @@ class CapacitanceMatrix {
   /// Refactorisations that the watch over drift has caused so far.
   int refactorisations() const { return refactorisations_; }
 
-  static constexpr double kLargestCondition = 1e13;  ///< beyond, a set is refused as singular
+  static constexpr double kLargestCondition = 1e13;  ///< or 1/(2 epsilon): beyond, a set is refused
   static constexpr double kSmallestPivot = 1e-12;
   static constexpr double kTaintedPivot = 1e-6;  ///< below it, each update looks at the residual
   static constexpr int kCheckInterval = 32;      ///< else updates between such looks

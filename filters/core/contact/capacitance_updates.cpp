@@ -118,7 +118,7 @@ CapacitanceMatrix::Addition CapacitanceMatrix::add(const ConstraintSwitch* switc
   const Pivot schurInverse = schur.inverse();
   result.pivot = count / (schurInverse.norm() * diagonal.norm());
   result.nearestNode = nearestNode(count);
-  if (!(result.pivot >= kSmallestPivot)) return result;
+  if (!(result.pivot >= std::max(kSmallestPivot, greens_->epsilon()))) return result;
   tainted_ = tainted_ || result.pivot < kTaintedPivot;
 
   appendBorder(diagonal, schurInverse);

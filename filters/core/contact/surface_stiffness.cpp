@@ -49,7 +49,8 @@ Eigen::Matrix3Xd maskResponse(const GreensFunctions& greens, const VertexMask& m
   return response;
 }
 
-constexpr double kLeastShare = 0.5;  ///< of M in the served compliance
+constexpr double kLeastShare = 0.5;    ///< of M in the served compliance
+constexpr double kFarthestAstray = 1;  ///< |B K - 1|, of a displacement that is asked for
 
 Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
   return (matrix + matrix.transpose()) / 2;
@@ -88,12 +89,17 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
   }
   const Raised least = raisedTo(symmetricPart(apart), symmetricPart(mean));
   const Raised served = raisedTo(kLeastShare * least.matrix, symmetrised(compliance, least.matrix));
-  if (Eigen::LLT<Eigen::Matrix3d>(served.matrix).info() != Eigen::Success)
-    throw std::runtime_error("the compliance at vertex " + std::to_string(vertex) +
-                             " is not positive definite: the surface is inside out there, or its "
-                             "walls are far thinner than its edges are long");
-  return {symmetricPart(served.matrix.inverse()),
-          (compliance - compliance.transpose()).norm() / compliance.norm(), !served.isAbove};
+  const Eigen::Matrix3d stiffness = symmetricPart(served.matrix.inverse());
+  const Eigen::Matrix3d astray = compliance * stiffness - Eigen::Matrix3d::Identity();
+  const bool isPositive = Eigen::LLT<Eigen::Matrix3d>(served.matrix).info() == Eigen::Success;
+  if (!isPositive || !(astray.operatorNorm() <= kFarthestAstray)) {
+    const std::string place = "the compliance at vertex " + std::to_string(vertex);
+    throw std::runtime_error(
+        place + (isPositive ? " is that of no stiffness" : " is not positive definite") +
+        ": the surface is inside out there, or its walls are far thinner than its edges are long");
+  }
+  return {stiffness, (compliance - compliance.transpose()).norm() / compliance.norm(),
+          !served.isAbove};
 }
 
 SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,

@@ -23,9 +23,10 @@ namespace palpate {
 /// the squares of both compliances as weights. (The plain mean would let a stiff direction push a
 /// soft one: along the blade of a spatula, asked for 1 mm, by 2.6 mm across.)
 ///
-/// In no direction is S less than half of M; where the mesh resolves a body, vertices yield more
-/// than their surroundings and nothing changes. M in turn is at least what the mask's nodes yield
-/// one by one, the sum of a_i rho_i^2 Xi_ii.
+/// In no direction is S less than half of M; where the mesh resolves a body and masks keep clear of
+/// the support, vertices yield more than their surroundings and nothing changes. M in turn is at
+/// least what the mask's nodes yield one by one, the sum of a_i rho_i^2 Xi_ii. Where a vertex still
+/// went astray by more than it is asked for, |B S^-1 - 1| > 1, there is no stiffness to serve.
 struct VertexStiffness {
   Eigen::Matrix3d stiffness;  ///< K^E, N/m, symmetric positive definite
   double asymmetry;           ///< |B - B^T|_F / |B|_F before symmetrising
@@ -33,9 +34,9 @@ struct VertexStiffness {
 };
 
 /// @param mask  of a free vertex, the vertex among its nodes.
-/// @throws std::invalid_argument if a column is missing; std::runtime_error if the compliance
-///         is not positive definite all the same, as on a surface that is inside out or far too
-///         coarse.
+/// @throws std::invalid_argument if a column is missing; std::runtime_error if S is not
+///         positive definite all the same or leads astray, as on a surface that is inside out or
+///         far too coarse.
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
                                       const VertexMask& mask);
 

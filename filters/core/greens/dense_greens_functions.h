@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <limits>
+
 #include "greens/greens_functions.h"
 #include "linear_algebra/aligned_buffer.h"
 
@@ -31,6 +33,7 @@ class DenseGreensFunctions final : public GreensFunctions {
                   Eigen::Ref<Eigen::VectorXd> out) const override;
   void accumulatePatches(NodeList patchColumns, Values weights,
                          Eigen::Ref<Eigen::VectorXd> out) const override;
+  double epsilon() const override { return std::numeric_limits<Scalar>::epsilon(); }
   std::shared_ptr<const GreensFunctions> withYoungsModulus(double youngsModulus) const override;
 
   /// The matrix as stored, for the Young's modulus it was made with.

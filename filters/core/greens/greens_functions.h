@@ -83,6 +83,9 @@ class GreensFunctions {
   virtual void accumulatePatches(NodeList patchColumns, Values weights,
                                  Eigen::Ref<Eigen::VectorXd> out) const = 0;
 
+  /// Relative rounding of the stored numbers.
+  virtual double epsilon() const = 0;
+
   /// The same body with another Young's modulus, by scaling alone ([JP01] section 3.6).
   virtual std::shared_ptr<const GreensFunctions> withYoungsModulus(double youngsModulus) const = 0;
 

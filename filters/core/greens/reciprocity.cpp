@@ -47,14 +47,14 @@ class KeptForce {
 
   template <class Scalar>
   void giveBack(Scalar* matrix, const Eigen::VectorXd& areas, const std::vector<int>& columnNodes,
-                const std::vector<int>& columns) const {
+                const std::vector<int>& columns, double share) const {
     if (!isComplete_) return;
     for (int c : columns)
       for (int j = 0; j < 3; ++j) {
         const int node = columnNodes[c];
         columnOf(matrix, c, j) += ((lost_.reshaped() * force_(j, node) +
                                     spread_.reshaped() * (lost_(j, node) * areas[node])) /
-                                   size_)
+                                   (size_ / share))
                                       .template cast<Scalar>();
       }
   }
@@ -77,7 +77,8 @@ class KeptForce {
 template <class Scalar>
 double makeReciprocal(Scalar* matrix, const BoundaryConditions& conditions,
                       const Eigen::VectorXd& areas, const std::vector<int>& columnNodes,
-                      bool symmetrise, const std::vector<Eigen::Matrix3Xd>& kept) {
+                      bool symmetrise, const std::vector<Eigen::Matrix3Xd>& kept,
+                      double keptShare) {
   using Block = Eigen::Map<Eigen::Matrix<Scalar, 3, 3>, 0, Eigen::OuterStride<>>;
   const Eigen::Index rows = 3 * Eigen::Index(areas.size());
   std::vector<int> columns;
@@ -111,14 +112,17 @@ double makeReciprocal(Scalar* matrix, const BoundaryConditions& conditions,
           pq = (mean * aq).template cast<Scalar>();
           qp = (mean.transpose() * ap).template cast<Scalar>();
         }
-  for (const KeptForce& force : forces) force.giveBack(matrix, areas, columnNodes, columns);
+  for (const KeptForce& force : forces)
+    force.giveBack(matrix, areas, columnNodes, columns, keptShare);
   return all > 0 ? std::sqrt(antisymmetric / all) : 0;
 }
 
 template double makeReciprocal(double*, const BoundaryConditions&, const Eigen::VectorXd&,
-                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&);
+                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&,
+                               double);
 template double makeReciprocal(float*, const BoundaryConditions&, const Eigen::VectorXd&,
-                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&);
+                               const std::vector<int>&, bool, const std::vector<Eigen::Matrix3Xd>&,
+                               double);
 
 std::vector<Eigen::Matrix3Xd> unitPressures(const SurfaceMesh& mesh) {
   std::vector<Eigen::Matrix3Xd> forces(mesh.bodyCount(),

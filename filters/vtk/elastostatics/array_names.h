@@ -82,7 +82,7 @@ constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce,
   ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };
 /// Point data of all contacts with one model.
 constexpr const char* StiffnessResults[] = { PressureMask, Stiffness, StiffnessNorm,
-  StiffnessAsymmetry, HapticRatio };
+  StiffnessAsymmetry, StiffnessLimited, HapticRatio };
 } // namespace palpate::arrays
 
 #endif
