@@ -76,7 +76,8 @@ void printSpread(const Field& field) {
   printRow("coefficient of variation", number(std::sqrt(square) / mean, 3));
 }
 
-void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const MaskOptions& mask) {
+void drawStiffness(vtkPolyData* surface, const Field& field, const PictureOptions& options,
+                   const MaskOptions& mask) {
   Picture picture;
   picture.width = 800;
   picture.towardsViewer = options.towardsViewer(surface);
@@ -88,7 +89,7 @@ void drawStiffness(vtkPolyData* surface, const PictureOptions& options, const Ma
             false,
             {}};
   if (options.range.empty()) {
-    const auto [low, high] = commonRange(Field(surface).norms);
+    const auto [low, high] = commonRange(field.norms);
     view.range = {low, high};
     view.logarithmic = high > 10 * low;
   } else {
@@ -119,10 +120,12 @@ void addStiffness(CLI::App& program) {
     filter->SetInputData(readSurface(options->input));
     options->mask.applyTo(filter);
     filter->SetRigidStiffness(options->mask.rigidStiffness);
-    const auto field = run(filter);
-    if (!options->output.empty()) writeSurface(field, options->output);
-    if (!options->picture.path.empty()) drawStiffness(field, options->picture, options->mask);
-    printSpread(Field(field));
+    const auto surface = run(filter);
+    const Field field(surface);
+    if (!options->output.empty()) writeSurface(surface, options->output);
+    if (!options->picture.path.empty())
+      drawStiffness(surface, field, options->picture, options->mask);
+    printSpread(field);
   });
 }
 

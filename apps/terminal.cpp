@@ -211,8 +211,7 @@ void PictureOptions::requireSensible() const {
 
 std::array<double, 3> PictureOptions::towardsViewer(vtkPolyData* surface) const {
   if (view.empty()) return directionOntoFreeSurface(surface);
-  const double length = std::hypot(view[0], view[1], view[2]);
-  return {view[0] / length, view[1] / length, view[2] / length};
+  return {view[0], view[1], view[2]};
 }
 
 }  // namespace palpate::app

@@ -69,7 +69,6 @@ struct PictureOptions {
   void addTo(CLI::App& command, const std::string& what);
   /// @throws std::invalid_argument for a view without direction or a range without extent.
   void requireSensible() const;
-  /// A unit vector.
   std::array<double, 3> towardsViewer(vtkPolyData* surface) const;
 };
 

@@ -13,7 +13,6 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
@@ -151,16 +150,11 @@ void addTitle(vtkRenderer* renderer, const std::string& title) {
   renderer->AddActor2D(text);
 }
 
-/// Where a view's points are drawn, deformed or not.
-vtkSmartPointer<vtkPoints> pointsOf(const View& view) {
-  return shapeOf(view)->GetPoints();
-}
-
 /// One camera for all views, so that they can be compared: it holds what they show in the left of a
 /// viewport, beside the colour bar.
 vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
   constexpr double left = 0.42, width = 0.74, height = 0.78;  // of the viewport: middle and extent
-  const Eigen::Vector3d towards = Eigen::Vector3d(picture.towardsViewer.data()).normalized();
+  const Eigen::Vector3d towards = Eigen::Vector3d(picture.towardsViewer.data()).stableNormalized();
   const bool fromAbove = std::abs(towards.z()) > 0.95;
   const Eigen::Vector3d upwards = fromAbove ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d axes;  // right, up, towards the viewer
@@ -168,9 +162,9 @@ vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
       towards;
   Eigen::AlignedBox3d box;
   for (const View& view : picture.views) {
-    const auto points = pointsOf(view);
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-      box.extend(axes.transpose() * Eigen::Vector3d(points->GetPoint(i)));
+    const auto shape = shapeOf(view);
+    for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i)
+      box.extend(axes.transpose() * Eigen::Vector3d(shape->GetPoint(i)));
   }
   const Eigen::Vector3d half = box.sizes() / 2;
   const double depth = half.norm();

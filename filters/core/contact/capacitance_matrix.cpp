@@ -80,6 +80,7 @@ CapacitanceMatrix::CapacitanceMatrix(const CapacitanceMatrix& other)
   std::copy_n(other.compliance_.data(), used, compliance_.data());
   std::copy_n(other.inverse_.data(), used, inverse_.data());
   tainted_ = other.tainted_;
+  freshResidual_ = other.freshResidual_;
   updates_ = other.updates_;
 }
 

@@ -13,8 +13,14 @@
 #include <string>
 
 namespace palpate {
-
 namespace {
+
+constexpr double kLeastShare = 0.5;    ///< of M in the served compliance
+constexpr double kFarthestAstray = 1;  ///< |B K - 1|, of a displacement that is asked for
+
+Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
 
 /// A symmetric matrix, nowhere below a positive definite one.
 struct Raised {
@@ -28,15 +34,15 @@ Raised raisedTo(const Eigen::Matrix3d& floor, const Eigen::Matrix3d& matrix) {
   if (factors.info() != Eigen::Success) return {matrix, true};
   const Eigen::Matrix3d half = factors.matrixL().solve(matrix);
   const Eigen::Matrix3d relative = factors.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen((relative + relative.transpose()) / 2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetricPart(relative));
   if (eigen.eigenvalues()[0] >= 1) return {matrix, true};
   const Eigen::Matrix3d root = factors.matrixL() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseMax(1).cwiseSqrt().asDiagonal();
   return {root * root.transpose(), false};
 }
 
-/// Displacements of the mask's nodes under its unit forces, 3 by 3 #nodes.
-Eigen::Matrix3Xd maskResponse(const GreensFunctions& greens, const VertexMask& mask) {
+/// Displacements of the mask's nodes under its unit forces, 3 #nodes by 3.
+Eigen::MatrixXd maskResponse(const GreensFunctions& greens, const VertexMask& mask) {
   const int count = static_cast<int>(mask.nodes.size());
   const auto rows = nodeList(mask.nodes);
   Eigen::MatrixXd columns(3 * count, 3), sum = Eigen::MatrixXd::Zero(3 * count, 3);
@@ -44,16 +50,7 @@ Eigen::Matrix3Xd maskResponse(const GreensFunctions& greens, const VertexMask& m
     greens.gather(rows, rows.segment(j, 1), columns.data());
     sum += mask.density[j] * columns;
   }
-  Eigen::Matrix3Xd response(3, 3 * count);
-  for (int i = 0; i < count; ++i) response.middleCols<3>(3 * i) = sum.middleRows<3>(3 * i);
-  return response;
-}
-
-constexpr double kLeastShare = 0.5;    ///< of M in the served compliance
-constexpr double kFarthestAstray = 1;  ///< |B K - 1|, of a displacement that is asked for
-
-Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
-  return (matrix + matrix.transpose()) / 2;
+  return sum;
 }
 
 /// The symmetric S whose inverse moves the vertex most nearly as it is told to: the one that makes
@@ -75,13 +72,13 @@ Eigen::Matrix3d symmetrised(const Eigen::Matrix3d& compliance, const Eigen::Matr
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
                                       const VertexMask& mask) {
   greens.requireColumns(nodeList(mask.nodes));
-  const Eigen::Matrix3Xd response = maskResponse(greens, mask);
+  const Eigen::MatrixXd response = maskResponse(greens, mask);
   Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero(), mean = compliance, apart = compliance;
   for (std::size_t i = 0; i < mask.nodes.size(); ++i) {
     const int node = mask.nodes[i];
     const double share = greens.vertexArea(node) * mask.density[i];
-    mean += share * response.middleCols<3>(3 * i);
-    if (node == vertex) compliance = response.middleCols<3>(3 * i);
+    mean += share * response.middleRows<3>(3 * i);
+    if (node == vertex) compliance = response.middleRows<3>(3 * i);
     const Eigen::Map<const Eigen::VectorXi> self(&node, 1);
     Eigen::Matrix3d own;
     greens.gather(self, self, own.data());

@@ -347,4 +347,11 @@ void removeResponses(vtkPolyData* surface)
     surface->GetPointData()->RemoveArray(name);
   }
 }
+
+void removeMeshResults(vtkPolyData* surface)
+{
+  removeGreensFunctions(surface);
+  removeResponses(surface);
+  surface->GetPointData()->RemoveArray(arrays::VertexArea);
+}
 } // namespace palpate::convert

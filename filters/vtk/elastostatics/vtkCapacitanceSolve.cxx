@@ -33,6 +33,7 @@ struct vtkCapacitanceSolve::Prepared
   vtkPolyData* Input;
   vtkMTimeType InputTime;
   convert::ServedModel Served;
+  Eigen::Matrix3Xd ForcePoints;
   palpate::CapacitanceSolver Solver;
 };
 
@@ -63,12 +64,7 @@ int vtkCapacitanceSolve::FillInputPortInformation(int port, vtkInformation* info
 
 void vtkCapacitanceSolve::SetTriangleTractionArrayName(const char* name)
 {
-  const std::string value = name ? name : "";
-  if (value != this->TriangleTractionArrayName)
-  {
-    this->TriangleTractionArrayName = value;
-    this->Modified();
-  }
+  this->SetName(this->TriangleTractionArrayName, name);
 }
 
 vtkCapacitanceSolve::Prepared& vtkCapacitanceSolve::Prepare(vtkPolyData* input)
@@ -77,8 +73,11 @@ vtkCapacitanceSolve::Prepared& vtkCapacitanceSolve::Prepare(vtkPolyData* input)
   {
     this->Kept.reset();
     convert::ServedModel served = convert::servedModelOf(input);
+    Eigen::Matrix3Xd points = palpate::forcePoints(
+      *served.mesh, served.greens->info().conditions, served.smoothPatches);
     palpate::CapacitanceSolver solver(served.greens, served.mesh);
-    this->Kept.reset(new Prepared{ input, input->GetMTime(), std::move(served), std::move(solver) });
+    this->Kept.reset(new Prepared{
+      input, input->GetMTime(), std::move(served), std::move(points), std::move(solver) });
   }
   return *this->Kept;
 }
@@ -308,8 +307,6 @@ void vtkCapacitanceSolve::Compute(
   const palpate::BoundarySolution solution = solveWithLoads(prepared.Solver, problem.Values,
     prepared.Served, input, this->TriangleTractionArrayName);
 
-  const Eigen::Matrix3Xd points = palpate::forcePoints(
-    mesh, greens.info().conditions, prepared.Served.smoothPatches);
   Eigen::Matrix3Xd forces(3, problem.Zones.size()), torques(3, problem.Zones.size());
   int zone = 0;
   for (const auto& [number, members] : problem.Zones)
@@ -321,7 +318,7 @@ void vtkCapacitanceSolve::Compute(
       centre += mesh.points().col(node) / nodes.size();
     }
     const palpate::Wrench wrench =
-      palpate::wrenchOf(greens, points, nodes, solution.traction, centre);
+      palpate::wrenchOf(greens, prepared.ForcePoints, nodes, solution.traction, centre);
     forces.col(zone) = wrench.force;
     torques.col(zone++) = wrench.torque;
   }

@@ -20,8 +20,8 @@
  * all vertices of the zone whose displacement is prescribed, and `ContactCondition`, the condition
  * number of the capacitance matrix. Forces are vertex area times traction (eq. 27). Those of contacts
  * act at the vertices, so that their torque is conjugate to turning the vertices; reactions of the
- * support act where its tractions do, so that they balance the loads. D. L. James and D. K. Pai 2001, sections 4 and 5. Inverses of the
- * last constraint sets are kept while the input stays.
+ * support act where its tractions do, so that they balance the loads. D. L. James and D. K. Pai 2001,
+ * sections 4 and 5. Inverses of the last constraint sets are kept while the input stays.
  */
 
 #ifndef vtkCapacitanceSolve_h

@@ -52,9 +52,7 @@ void vtkElasticMeshRepair::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
   {
     copy(input->GetCellData(), output->GetCellData(), repaired.originalTriangle);
   }
-  convert::removeGreensFunctions(output);
-  convert::removeResponses(output);
-  output->GetPointData()->RemoveArray(palpate::arrays::VertexArea);
+  convert::removeMeshResults(output);
   if (convert::hasField(input, palpate::arrays::SmoothAngle))
   {
     output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);

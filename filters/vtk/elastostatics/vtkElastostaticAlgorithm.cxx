@@ -24,6 +24,16 @@ bool vtkElastostaticAlgorithm::ReportProgress(double fraction, const char* stage
   return !this->GetAbortExecute();
 }
 
+void vtkElastostaticAlgorithm::SetName(std::string& member, const char* name)
+{
+  const std::string value = name ? name : "";
+  if (value != member)
+  {
+    member = value;
+    this->Modified();
+  }
+}
+
 int vtkElastostaticAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {

@@ -45,6 +45,11 @@ protected:
    */
   bool ReportProgress(double fraction, const char* stage);
 
+  /**
+   * Sets a name, null for none; the same name again modifies nothing.
+   */
+  void SetName(std::string& member, const char* name);
+
 private:
   vtkElastostaticAlgorithm(const vtkElastostaticAlgorithm&) = delete;
   void operator=(const vtkElastostaticAlgorithm&) = delete;

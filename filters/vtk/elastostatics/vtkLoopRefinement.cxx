@@ -51,9 +51,7 @@ void vtkLoopRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInfo
     return;
   }
   removeFoundPatches(input, output);
-  convert::removeGreensFunctions(output);
-  convert::removeResponses(output);
-  output->GetPointData()->RemoveArray(palpate::arrays::VertexArea);
+  convert::removeMeshResults(output);
   const bool hasTypes = input->GetPointData()->HasArray(palpate::arrays::BoundaryType);
   for (int step = 0; step < this->NumberOfLevels; ++step)
   {

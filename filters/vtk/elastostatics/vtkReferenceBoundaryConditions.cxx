@@ -65,12 +65,7 @@ int vtkReferenceBoundaryConditions::FillInputPortInformation(int port, vtkInform
 
 void vtkReferenceBoundaryConditions::SetFixedArrayName(const char* name)
 {
-  const std::string value = name ? name : "";
-  if (value != this->FixedArrayName)
-  {
-    this->FixedArrayName = value;
-    this->Modified();
-  }
+  this->SetName(this->FixedArrayName, name);
 }
 
 void vtkReferenceBoundaryConditions::AddFixedHalfSpace(const double origin[3], const double normal[3])

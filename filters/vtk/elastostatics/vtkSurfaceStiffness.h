@@ -11,9 +11,8 @@
  * mean displacement under the mask, as the vertex's own would be more than twice as stiff or no
  * stiffness at all: on walls that the mesh does not resolve), `HapticRatio` (of K^H to K^E) and
  * `VertexArea`. Fixed vertices show the rigid stiffness; vertices whose mask needs columns that were not
- * computed, or whose compliance is not positive definite all the same, show NaN. Input: a
- * surface with its Green's functions. James & Pai 2001, eq. 32, 33 and section 6.4; fig. 7 is this array
- * without and with a mask.
+ * computed, or whose compliance is that of no stiffness, show NaN. Input: a surface with its Green's
+ * functions. James & Pai 2001, eq. 32, 33 and section 6.4; fig. 7 is this array without and with a mask.
  */
 
 #ifndef vtkSurfaceStiffness_h
