@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/capacitance_matrix.h"
+#include "contact/wrench.h"
 #include "greens/greens_functions.h"
 #include "mesh/surface_mesh.h"
 
@@ -74,11 +75,7 @@ class CapacitanceSolver {
   std::list<std::shared_ptr<const CapacitanceMatrix>> cache_;  // last used first
 };
 
-/// Force and torque of tractions on a set of nodes, f = a_S^T p_S (eq. 27).
-struct Wrench {
-  Eigen::Vector3d force, torque;  ///< N, N m about the given centre
-};
-
+/// Force and torque of tractions on a set of nodes, f = a_S^T p_S (eq. 27), about a centre.
 /// @param points    3 by #nodes, where the nodes' forces act: the vertices, or forcePoints.
 /// @param traction  3 by #nodes.
 Wrench wrenchOf(const GreensFunctions& greens, const Eigen::Matrix3Xd& points,

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+namespace palpate {
+
+/// How well a contact problem was solved.
+struct ContactCertificate {
+  double residual = 0;       ///< of the complementarity conditions, relative (0: solved exactly)
+  double coneViolation = 0;  ///< largest excess over the friction cone over the largest force
+  int iterations = 0;
+  int contactCount = 0;    ///< nodes, or points, that bear a force
+  bool budgetCut = false;  ///< whether the budget ended the solve before its tolerance was met
+  bool failed = false;     ///< no usable force
+};
+
+}  // namespace palpate

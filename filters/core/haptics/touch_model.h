@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <cstdint>
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "contact/contact_certificate.h"
+#include "contact/wrench.h"
+#include "haptics/haptic_device.h"
+
+namespace palpate {
+
+/// What one tool touches, for those who draw it: [JP01] fig. 8.
+struct ToolContact {
+  bool touching = false;
+  ToolPose pose;
+  /// On the tool, about its position.
+  Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  int triangle = -1;  ///< of a contact at a point
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  Eigen::Vector3d staticPoint = Eigen::Vector3d::Zero();  ///< x^C
+  Eigen::Vector3d hapticPoint = Eigen::Vector3d::Zero();  ///< x^H
+  bool sliding = false;
+};
+
+/// A state of contact from which the whole deformation follows, for a slower thread: tools and the
+/// forces on nodes. Its vectors have their final size from `TouchModel::makeSnapshot` on, so that
+/// filling one allocates nothing.
+struct ContactSnapshot {
+  std::uint64_t tick = 0;
+  std::vector<ToolContact> tools;
+  ContactCertificate certificate;
+  int loadedCount = 0;                 ///< of the entries below that hold
+  std::vector<int> loadedNodes;        ///< nodes of the surface under a force
+  std::vector<Eigen::Vector3d> loads;  ///< on the body, N
+};
+
+/// What the servo loop evaluates in every tick: poses of the tools in, wrenches on them out.
+class TouchModel {
+ public:
+  virtual ~TouchModel() = default;
+
+  virtual int toolCount() const = 0;
+
+  /// Advances the contact to new poses. Neither allocates, locks nor throws.
+  /// @param poses    toolCount() of them, finite, in the scene's frame.
+  /// @param wrenches toolCount(), set to what the surface does to each tool, torque about its
+  ///                 position. N, N m.
+  virtual ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept = 0;
+
+  /// Forgets all contact, as after a fault.
+  virtual void reset() noexcept = 0;
+
+  /// A snapshot with room for all this model will ever fill in.
+  virtual ContactSnapshot makeSnapshot() const = 0;
+
+  /// Fills in the state after the last step; all but `tick`. Allocates nothing.
+  virtual void fill(ContactSnapshot& snapshot) const noexcept = 0;
+};
+
+}  // namespace palpate
