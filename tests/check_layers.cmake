@@ -37,6 +37,9 @@ forbid("a producer of Green's functions includes a consumer" FILES ${core}/bem/*
 forbid("a consumer of Green's functions includes a producer"
   FILES ${core}/contact/*.h ${core}/contact/*.cpp
   PATTERN "${include}(bem|fem|halfspace|identification)/")
+forbid("the haptic room includes a producer of Green's functions"
+  FILES ${core}/haptics/*.h ${core}/haptics/*.cpp
+  PATTERN "${include}(bem|fem|halfspace|identification)/")
 forbid("Green's functions include a producer or a consumer"
   FILES ${core}/greens/*.h ${core}/greens/*.cpp
   PATTERN "${include}(bem|fem|halfspace|identification|contact|haptics)/")

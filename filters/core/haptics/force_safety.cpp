@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/force_safety.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+
+namespace {
+
+const Wrench kNoWrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+
+// A device's quaternion of 8 bits a component is still that of a rotation.
+constexpr double kQuaternionError = 0.02;
+// Seconds are sums of periods: a millionth of one more or less is rounding.
+constexpr double kRounding = 1e-6;
+
+void require(bool good, const char* name, double value) {
+  if (!good)
+    throw std::invalid_argument("the safety setting " + std::string(name) +
+                                " is out of range: " + std::to_string(value));
+}
+
+bool isPositive(double value) {
+  return value > 0 && std::isfinite(value);
+}
+
+/// No longer than `largest`, in the same direction; finite, however long it was.
+/// @return whether it had to be shortened.
+bool shorten(Eigen::Vector3d& vector, double largest) noexcept {
+  const double length = vector.stableNorm();
+  if (length <= largest) return false;
+  vector *= largest / length;
+  return true;
+}
+
+/// From `from` towards `to`, by `largest` at most.
+bool approach(Eigen::Vector3d& to, const Eigen::Vector3d& from, double largest) noexcept {
+  Eigen::Vector3d change = to - from;
+  if (!shorten(change, largest)) return false;
+  to = from + change;
+  return true;
+}
+
+bool isFinite(const Wrench& wrench) noexcept {
+  return wrench.force.allFinite() && wrench.torque.allFinite();
+}
+
+}  // namespace
+
+const char* describe(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::None:
+      return "no fault";
+    case Fault::InvalidPose:
+      return "a pose that is not finite, out of reach or no rotation";
+    case Fault::Jump:
+      return "a pose that jumped";
+    case Fault::Silent:
+      return "no report from the device";
+    case Fault::Unplugged:
+      return "the device is not there";
+    case Fault::Undelivered:
+      return "the device takes no force";
+    case Fault::FailedSolves:
+      return "no usable force from the model";
+    case Fault::LateSolves:
+      return "forces computed too late";
+  }
+  return "";
+}
+
+ForceSafety::ForceSafety(const SafetySettings& settings, double period)
+    : settings_(settings), period_(period), sound_(kNoWrench), rendered_(kNoWrench) {
+  const SafetySettings& s = settings;
+  require(isPositive(period), "period", period);
+  require(s.largestForce == 0 || isPositive(s.largestForce), "largestForce", s.largestForce);
+  require(s.largestTorque == 0 || isPositive(s.largestTorque), "largestTorque", s.largestTorque);
+  require(isPositive(s.forceSlew), "forceSlew", s.forceSlew);
+  require(isPositive(s.torqueSlew), "torqueSlew", s.torqueSlew);
+  require(isPositive(s.fadeSeconds), "fadeSeconds", s.fadeSeconds);
+  require(isPositive(s.settleSeconds), "settleSeconds", s.settleSeconds);
+  require(isPositive(s.rampSeconds), "rampSeconds", s.rampSeconds);
+  require(isPositive(s.largestSpeed), "largestSpeed", s.largestSpeed);
+  require(isPositive(s.largestTurning), "largestTurning", s.largestTurning);
+  require(isPositive(s.largestReach), "largestReach", s.largestReach);
+  require(s.toleratedSilence >= 0, "toleratedSilence", s.toleratedSilence);
+  require(s.largestSilence > s.toleratedSilence, "largestSilence", s.largestSilence);
+  require(s.failedSolves >= 1, "failedSolves", s.failedSolves);
+  require(s.lateSolves >= 1, "lateSolves", s.lateSolves);
+}
+
+/// A new report. What is valid but far from the last becomes what the next is measured from.
+Fault ForceSafety::judge(const ToolPose& pose) noexcept {
+  // Not stableNorm, which passes over what is not a number.
+  if (!(pose.position.norm() <= settings_.largestReach)) return Fault::InvalidPose;
+  if (!(std::abs(pose.orientation.norm() - 1) <= kQuaternionError)) return Fault::InvalidPose;
+  if (pose.jointCount < 0 || pose.jointCount > ToolPose::kMostJoints) return Fault::InvalidPose;
+  for (int j = 0; j < pose.jointCount; ++j)
+    if (!std::isfinite(pose.joints[j])) return Fault::InvalidPose;
+
+  const ToolPose last = reported_;
+  const bool first = !everReported_;
+  reported_ = pose;
+  reported_.orientation.normalize();
+  everReported_ = true;
+  const double elapsed = sinceReport_;
+  sinceReport_ = 0;
+  const double turned = last.orientation.angularDistance(reported_.orientation);
+  const bool jumped =
+      !first && ((pose.position - last.position).norm() > settings_.largestSpeed * elapsed ||
+                 turned > settings_.largestTurning * elapsed);
+  return jumped ? Fault::Jump : Fault::None;
+}
+
+const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
+                                   double elapsed) noexcept {
+  startsAnew_ = false;
+  sinceReport_ += elapsed;
+  if (!present) {
+    poseFault_ = Fault::Unplugged;
+    everReported_ = false;
+    interrupted_ = true;
+    return admitted_;
+  }
+  if (everReported_ && state.sequence == sequence_) {
+    if (silence_ < settings_.largestSilence) ++silence_;
+    poseFault_ = silence_ >= settings_.largestSilence ? Fault::Silent : Fault::None;
+    return admitted_;
+  }
+  poseFault_ = judge(state.pose);
+  sequence_ = state.sequence;
+  silence_ = 0;
+  if (poseFault_ != Fault::None) {
+    interrupted_ = true;
+    return admitted_;
+  }
+  startsAnew_ = interrupted_;
+  interrupted_ = false;
+  admitted_ = reported_;
+  return admitted_;
+}
+
+Fault ForceSafety::judgeSolve(const Request& request) noexcept {
+  const bool failed = request.certificate.failed || !isFinite(request.wanted);
+  failed_ = failed ? std::min(failed_ + 1, settings_.failedSolves) : 0;
+  const bool late = request.late || request.certificate.budgetCut;
+  late_ = late ? std::min(late_ + 1, settings_.lateSolves) : 0;
+  if (failed_ >= settings_.failedSolves) return Fault::FailedSolves;
+  if (late_ >= settings_.lateSolves) return Fault::LateSolves;
+  return Fault::None;
+}
+
+/// 1 up to the tolerated silence, then linearly down to 0 at the largest one.
+double ForceSafety::silentShare() const noexcept {
+  const double left = settings_.largestSilence - silence_;
+  return std::min(1.0, left / (settings_.largestSilence - settings_.toleratedSilence));
+}
+
+Wrench ForceSafety::bounded(const Wrench& wanted) noexcept {
+  Wrench wrench = wanted;
+  const bool force = shorten(wrench.force, settings_.largestForce);
+  const bool torque = shorten(wrench.torque, settings_.largestTorque);
+  report_.limitedTicks += force || torque;
+  return wrench;
+}
+
+/// One tick of fading from the last sound wrench. Once latched it goes on to zero.
+void ForceSafety::fade(bool latch, double elapsed) noexcept {
+  faded_ += elapsed;
+  double share = 1 - faded_ / settings_.fadeSeconds;
+  if (share < kRounding) share = 0;
+  if (silence_ > settings_.toleratedSilence) share = std::min(share, silentShare());
+  rendered_ = {share * sound_.force, share * sound_.torque};
+  if (latch) report_.phase = share > 0 ? SafetyPhase::Fading : SafetyPhase::Settling;
+}
+
+void ForceSafety::render(const Wrench& wanted) noexcept {
+  faded_ = 0;
+  if (report_.phase == SafetyPhase::Settling) {
+    settled_ += period_;
+    if (settled_ + kRounding * period_ >= settings_.settleSeconds)
+      report_.phase = SafetyPhase::Ramping;
+  } else if (report_.phase == SafetyPhase::Ramping) {
+    report_.gain = std::min(1.0, report_.gain + period_ / settings_.rampSeconds);
+    if (report_.gain > 1 - kRounding) {
+      report_.gain = 1;
+      report_.phase = SafetyPhase::Rendering;
+      report_.fault = Fault::None;
+    }
+  }
+  Wrench target = bounded(wanted);
+  target.force *= report_.gain;
+  target.torque *= report_.gain;
+  const bool force = approach(target.force, rendered_.force, settings_.forceSlew * period_);
+  const bool torque = approach(target.torque, rendered_.torque, settings_.torqueSlew * period_);
+  report_.slewedTicks += force || torque;
+  rendered_ = sound_ = target;
+}
+
+void ForceSafety::endWith(Fault fault) noexcept {
+  if (fault != Fault::None) {
+    ++report_.faults[static_cast<int>(fault)];
+    report_.fault = fault;
+  }
+  settled_ = 0;
+  report_.gain = 0;
+}
+
+const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcept {
+  const Fault solveFault = judgeSolve(request);
+  Fault fault = poseFault_;
+  if (fault == Fault::None) fault = solveFault;
+  if (fault == Fault::None && undelivered_ >= settings_.largestSilence) fault = Fault::Undelivered;
+
+  if (fault == Fault::InvalidPose || fault == Fault::Unplugged) {
+    endWith(fault);
+    rendered_ = sound_ = kNoWrench;
+    report_.phase = SafetyPhase::Settling;
+  } else if (fault != Fault::None || request.paused || report_.phase == SafetyPhase::Fading) {
+    endWith(fault);
+    fade(true, elapsed);
+  } else if (failed_ > 0 || silence_ > settings_.toleratedSilence) {
+    fade(false, elapsed);
+  } else {
+    render(request.wanted);
+  }
+  return rendered_;
+}
+
+}  // namespace palpate

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "contact/contact_certificate.h"
+#include "haptics/haptic_device.h"
+
+namespace palpate {
+
+/// What may be done to a hand. Each is positive and finite, a limit of force or torque may be zero.
+struct SafetySettings {
+  double largestForce = 3;     ///< N
+  double largestTorque = 0.1;  ///< N m
+  double forceSlew = 1000;     ///< N/s, of the force's magnitude of change
+  double torqueSlew = 30;      ///< N m/s
+  double fadeSeconds = 0.01;   ///< from any force to zero after a fault
+  double settleSeconds = 0.1;  ///< without a fault, before a force is rendered
+  double rampSeconds = 0.5;    ///< from nothing to the whole force
+
+  double largestSpeed = 50;     ///< m/s; more is a jump (5 cm in a millisecond)
+  double largestTurning = 500;  ///< rad/s
+  double largestReach = 10;     ///< m from the device's origin
+
+  int toleratedSilence = 1;  ///< ticks in a row without a report in which the force stays
+  int largestSilence = 3;    ///< such ticks after which it is zero; a fault
+  int failedSolves = 3;      ///< in a row are a fault; the force fades from the first on
+  int lateSolves = 20;       ///< over the budget, in a row, are a fault
+};
+
+enum class Fault : std::uint8_t {
+  None,
+  InvalidPose,  ///< not finite, out of reach, no rotation
+  Jump,
+  Silent,        ///< no new report
+  Unplugged,     ///< the device is not there
+  Undelivered,   ///< the device takes no wrench
+  FailedSolves,  ///< or forces that are not finite
+  LateSolves,
+};
+inline constexpr int kFaultCount = 8;
+
+/// In words, e.g. "no report from the device".
+const char* describe(Fault fault) noexcept;
+
+enum class SafetyPhase : std::uint8_t {
+  Settling,  ///< zero force, until there has been no fault for a while
+  Ramping,
+  Rendering,
+  Fading,  ///< after a fault or a pause
+};
+
+/// What became of a hand's force, for those who show it.
+struct SafetyReport {
+  SafetyPhase phase = SafetyPhase::Settling;
+  Fault fault = Fault::None;  ///< the last one that ended rendering, until it renders again
+  double gain = 0;            ///< share of the wanted force, 0 to 1
+  std::array<std::int64_t, kFaultCount> faults{};  ///< ticks with each fault, so far
+  std::int64_t limitedTicks = 0;                   ///< with a force or torque above its limit
+  std::int64_t slewedTicks = 0;                    ///< with a change above the slew limit
+};
+
+/// Decides what force one hand gets. Threads and clocks are no part of it: the same calls give the
+/// same forces.
+///
+/// After a fault the force is f0 (1 - t/fadeSeconds), f0 the last one without fault, and so exactly
+/// zero in time from any force; a pose that is not valid and a device that is gone make it zero in
+/// the same tick, silence by largestSilence ticks. Then it stays zero until settleSeconds have
+/// passed without a fault, and returns over rampSeconds.
+class ForceSafety {
+ public:
+  /// @param period  s, of a tick.
+  /// @throws std::invalid_argument naming the setting that is out of range.
+  ForceSafety(const SafetySettings& settings, double period);
+
+  /// Judges what the device reports; the first half of a tick.
+  /// @param present  whether the device is there; if not, `state` is not looked at.
+  /// @param elapsed  s since the last tick: the period, or more if ticks were missed.
+  /// @return the pose to go on with: the reported one, or else the last one that was valid, with a
+  ///         unit quaternion. The origin before there was any.
+  const ToolPose& admit(bool present, const DeviceState& state, double elapsed) noexcept;
+
+  /// Whether the last pose admitted is the first one, or the first after invalid ones or a jump:
+  /// contact found before has no meaning any more.
+  bool startsAnew() const noexcept { return startsAnew_; }
+
+  struct Request {
+    Wrench wanted;  ///< in the device's frame
+    ContactCertificate certificate;
+    bool late = false;    ///< whether the tick is over its budget
+    bool paused = false;  ///< fade and stay at zero, without a fault
+  };
+
+  /// The wrench to render; the second half of a tick.
+  /// @param elapsed  as above. The force changes no further in a longer tick but when it fades.
+  const Wrench& limit(const Request& request, double elapsed) noexcept;
+
+  /// Tells whether the device took it.
+  void delivered(bool arrived) noexcept { undelivered_ = arrived ? 0 : undelivered_ + 1; }
+
+  const SafetyReport& report() const noexcept { return report_; }
+
+ private:
+  Fault judge(const ToolPose& pose) noexcept;
+  Fault judgeSolve(const Request& request) noexcept;
+  double silentShare() const noexcept;
+  void fade(bool latch, double elapsed) noexcept;
+  void render(const Wrench& wanted) noexcept;
+  Wrench bounded(const Wrench& wanted) noexcept;
+  void endWith(Fault fault) noexcept;
+
+  SafetySettings settings_;
+  double period_;
+  SafetyReport report_;
+
+  ToolPose admitted_, reported_;  ///< reported_: what a jump is measured from
+  bool everReported_ = false, startsAnew_ = false, interrupted_ = true;
+  std::uint64_t sequence_ = 0;
+  double sinceReport_ = 0;  ///< s
+  Fault poseFault_ = Fault::None;
+  int silence_ = 0, undelivered_ = 0, failed_ = 0, late_ = 0;
+
+  double settled_ = 0, faded_ = 0;  ///< s
+  Wrench sound_, rendered_;         ///< sound_: the last one without a fault
+};
+
+}  // namespace palpate

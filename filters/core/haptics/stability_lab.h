@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <vector>
+
+#include "haptics/simulated_device.h"
+#include "haptics/touch_model.h"
+#include "progress.h"
+
+namespace palpate {
+
+/// How a model is pressed to find out what stiffness a device can render.
+struct LabSettings {
+  /// Its hand holds it at `place`; path and push are the lab's.
+  SimulatedDeviceSettings device;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< on the model's surface, m
+  Eigen::Vector3d direction{0, 0, -1};              ///< into it, of any length
+  double depth = 1e-3;                              ///< pressed at rest, m
+  double tolerance = 0.005;                         ///< relative, of a largest stable stiffness
+  bool passivityControl = false;                    ///< passivityDamping, up to mass / period
+};
+
+/// What happened to a device pressed into a model and kicked.
+struct LabRun {
+  bool stable = false;
+  double residual = 0;     ///< m, half the range of its motion at the end
+  double leastEnergy = 0;  ///< J, PassivityObserver: below zero at any time, the model made energy
+  long dampedTicks = 0;    ///< in which the passivity controller acted
+};
+
+struct ZWidthPoint {
+  double rate;           ///< 1/T, Hz
+  double damping;        ///< b of the device, N s/m
+  int delay;             ///< d, ticks
+  double largestStable;  ///< N/m, by simulation
+  double passive;        ///< N/m, servedStiffness(b, T, d): the Colgate bound
+};
+
+/// A laboratory of stability without hardware. A simulated device is pressed to a depth by a
+/// constant force, kicked by three tenths of the depth, and left alone: it is stable if its motion
+/// there shrinks. The hand's force and the model's are scaled alike, so that every stiffness is
+/// tried at the same depth.
+class StabilityLab {
+ public:
+  /// @param model  with one tool; stepped and reset by the lab, and to outlive it.
+  /// @throws std::invalid_argument if it has more tools, a setting is out of range, or the model
+  ///         does not resist the press.
+  StabilityLab(TouchModel& model, const LabSettings& settings);
+
+  /// The model's own, N/m: force against the press at `depth`, over the depth.
+  double stiffness() const noexcept { return stiffness_; }
+
+  /// @param stiffness  that the model is scaled to, N/m.
+  LabRun run(double stiffness) const;
+
+  /// The largest stable stiffness by bisection, to the tolerance; N/m. 0 without damping or where
+  /// nothing is stable; infinite if a million times the Colgate bound still is.
+  double largestStable() const;
+
+ private:
+  TouchModel* model_;
+  LabSettings settings_;
+  Eigen::Vector3d direction_;
+  double stiffness_;
+};
+
+/// Z-width of a model (Colgate & Brown 1994): a point for each rate, damping and delay, the delay
+/// running fastest.
+/// @param rates    Hz.
+/// @param dampings of the device, N s/m.
+/// @param delays   ticks.
+/// @throws std::invalid_argument as StabilityLab; Aborted if `progress` asks for it.
+std::vector<ZWidthPoint> zWidth(TouchModel& model, const LabSettings& settings,
+                                const std::vector<double>& rates,
+                                const std::vector<double>& dampings, const std::vector<int>& delays,
+                                const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,408 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/force_safety.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/allocation_count.h"
+#include "support/refusals.h"
+
+namespace palpate::test {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kPeriod = 1e-3;
+
+/// A hand at rest, a force wanted, and what can go wrong with them.
+class AHandThatFeels : public testing::Test {
+ protected:
+  AHandThatFeels() {
+    state_.sequence = 1;
+    request_.wanted = {{0, 0, 1}, {0, 0.02, 0}};
+  }
+
+  /// A tick with a new report.
+  Wrench tick(double elapsed = kPeriod) {
+    ++state_.sequence;
+    return silentTick(elapsed);
+  }
+  Wrench silentTick(double elapsed = kPeriod) {
+    safety_.admit(present_, state_, elapsed);
+    const Wrench wrench = safety_.limit(request_, elapsed);
+    safety_.delivered(delivered_);
+    return wrench;
+  }
+  void tickUntilItRenders() {
+    for (int i = 0; i < 700 && phase() != SafetyPhase::Rendering; ++i) tick();
+    ASSERT_EQ(phase(), SafetyPhase::Rendering);
+    for (int i = 0; i < 10; ++i) tick();
+  }
+  SafetyPhase phase() const { return safety_.report().phase; }
+  std::int64_t faults(Fault fault) const {
+    return safety_.report().faults[static_cast<int>(fault)];
+  }
+  /// It comes back only after the whole settling time, and then over the whole ramp.
+  void expectToReturnByARamp() {
+    int zeros = 0, rising = 0;
+    double last = 0, largestRise = 0;
+    while (phase() != SafetyPhase::Rendering && zeros + rising < 2000) {
+      const double force = tick().force.norm();
+      (force == 0 ? zeros : rising) += 1;
+      largestRise = std::max(largestRise, force - last);
+      EXPECT_GE(force, last);
+      last = force;
+    }
+    EXPECT_NEAR(zeros, settings_.settleSeconds / kPeriod, 3);
+    EXPECT_NEAR(rising, settings_.rampSeconds / kPeriod, 1);
+    EXPECT_NEAR(last, request_.wanted.force.norm(), 1e-12);
+    EXPECT_NEAR(largestRise, last * kPeriod / settings_.rampSeconds, 1e-12);
+    EXPECT_EQ(safety_.report().fault, Fault::None);
+  }
+
+  SafetySettings settings_;
+  ForceSafety safety_{settings_, kPeriod};
+  DeviceState state_;
+  ForceSafety::Request request_{};
+  bool present_ = true, delivered_ = true;
+};
+
+TEST_F(AHandThatFeels, NothingAtFirstAndThenTheForceByARamp) {
+  expectToReturnByARamp();
+  EXPECT_EQ(tick().force, request_.wanted.force);
+  EXPECT_EQ(tick().torque, request_.wanted.torque);
+}
+
+TEST_F(AHandThatFeels, NeverMoreThanTheLargestForceAndTorqueInTheirDirections) {
+  request_.wanted = {{0, 300, 400}, {50, 0, 0}};
+  tickUntilItRenders();
+  EXPECT_LE((tick().force - Vector3d(0, 1.8, 2.4)).norm(), 1e-12);
+  EXPECT_LE((tick().torque - Vector3d(0.1, 0, 0)).norm(), 1e-12);
+  EXPECT_GT(safety_.report().limitedTicks, 0);
+  request_.wanted.force.setConstant(1e308);
+  EXPECT_NEAR(tick().force.norm(), 3, 1.01) << "its norm overflows, the force does not";
+}
+
+TEST_F(AHandThatFeels, ADeviceThatRendersNoneIsGivenNone) {
+  settings_.largestForce = settings_.largestTorque = 0;
+  safety_ = ForceSafety(settings_, kPeriod);
+  tickUntilItRenders();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  EXPECT_EQ(tick().torque, Vector3d::Zero());
+}
+
+TEST_F(AHandThatFeels, NoChangeFasterThanTheSlewLimit) {
+  tickUntilItRenders();
+  Vector3d last = tick().force;
+  request_.wanted.force = {-2, 1, 0};
+  int ticks = 0;
+  for (; (last - request_.wanted.force).norm() > 1e-12 && ticks < 10; ++ticks) {
+    const Vector3d force = tick().force;
+    EXPECT_LE((force - last).norm(), settings_.forceSlew * kPeriod * (1 + 1e-12));
+    last = force;
+  }
+  EXPECT_EQ(ticks, 3) << "the square root of 6 newtons at one a millisecond";
+  EXPECT_EQ(safety_.report().slewedTicks, 2);
+}
+
+TEST_F(AHandThatFeels, AMissedTickDoesNotLetTheForceChangeFaster) {
+  tickUntilItRenders();
+  request_.wanted.force = {-2, 1, 0};
+  const Vector3d last = safety_.limit(request_, 0).force;
+  EXPECT_LE((tick(50 * kPeriod).force - last).norm(), settings_.forceSlew * kPeriod * (1 + 1e-12));
+}
+
+TEST_F(AHandThatFeels, NothingInTheSameTickAsAPoseThatIsNotValid) {
+  std::vector<ToolPose> poses(8);
+  poses[0].position.y() = NAN;
+  poses[1].position.x() = INFINITY;
+  poses[2].position.z() = 1e300;
+  poses[3].orientation.coeffs().setZero();
+  poses[4].orientation.w() = NAN;
+  poses[5].jointCount = 1;
+  poses[5].joints[0] = INFINITY;
+  poses[6].jointCount = ToolPose::kMostJoints + 1;
+  poses[7].jointCount = -1;
+  std::int64_t count = 0;
+  for (const ToolPose& pose : poses) {
+    state_.pose = ToolPose();
+    tickUntilItRenders();
+    EXPECT_GT(tick().force.norm(), 0.9);
+    state_.pose = pose;
+    const Wrench wrench = tick();
+    EXPECT_EQ(wrench.force, Vector3d::Zero());
+    EXPECT_EQ(wrench.torque, Vector3d::Zero());
+    EXPECT_EQ(safety_.report().fault, Fault::InvalidPose);
+    EXPECT_EQ(faults(Fault::InvalidPose), ++count);
+    state_.pose = ToolPose();
+    expectToReturnByARamp();
+  }
+}
+
+TEST_F(AHandThatFeels, TheModelOnlyEverSeesPosesThatAreValid) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-20, 20);
+  const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, 0};
+  for (int i = 0; i < 100000; ++i) {
+    state_.sequence += random() % 2;
+    double* const values[] = {&state_.pose.position.x(), &state_.pose.position.y(),
+                              &state_.pose.position.z(), &state_.pose.orientation.x(),
+                              &state_.pose.orientation.w()};
+    for (double* value : values) *value = random() % 8 ? uniform(random) : odd[random() % 5];
+    if (random() % 2) state_.pose.orientation.normalize();
+    present_ = random() % 10;
+    const ToolPose& pose = safety_.admit(present_, state_, kPeriod);
+    ASSERT_TRUE(pose.position.norm() <= settings_.largestReach);
+    ASSERT_NEAR(pose.orientation.norm(), 1, 1e-15);
+    const Wrench& wrench = safety_.limit(request_, kPeriod);
+    ASSERT_TRUE(wrench.force.norm() <= settings_.largestForce * (1 + 1e-15));
+  }
+}
+
+TEST_F(AHandThatFeels, AQuaternionRoundedByTheDeviceIsMadeAUnitOne) {
+  state_.pose.orientation = Quaterniond(1.01, 0, 0, 0);
+  ++state_.sequence;
+  EXPECT_EQ(safety_.admit(true, state_, kPeriod).orientation.norm(), 1);
+  tick();
+  EXPECT_EQ(safety_.report().fault, Fault::None);
+}
+
+TEST_F(AHandThatFeels, AForceThatFadesLinearlyToExactlyZeroInTheFadeTimeAfterAJump) {
+  for (double wanted : {1.0, 1e-3, 3.0}) {
+    request_.wanted.force = {0, wanted, 0};
+    tickUntilItRenders();
+    const Vector3d before = tick().force;
+    state_.pose.position.x() += 0.06;
+    request_.wanted.force = {100, 0, 0};  // what the model makes of it does not matter
+    for (int i = 1; i <= 10; ++i) {
+      const Wrench wrench = tick();
+      EXPECT_LE((wrench.force - (1 - 0.1 * i) * before).norm(), 1e-15);
+      EXPECT_EQ(safety_.report().fault, Fault::Jump);
+    }
+    EXPECT_EQ(tick().force, Vector3d::Zero());
+    request_.wanted.force = {0, wanted, 0};
+    expectToReturnByARamp();
+  }
+  EXPECT_EQ(faults(Fault::Jump), 3);
+}
+
+TEST_F(AHandThatFeels, FadingTakesTheSameTimeWhenTicksAreMissed) {
+  tickUntilItRenders();
+  state_.pose.position.x() += 0.06;
+  const double before = tick(0).force.norm();
+  EXPECT_NEAR(tick(4 * kPeriod).force.norm(), 0.6 * before, 1e-12);
+  EXPECT_EQ(tick(6 * kPeriod).force, Vector3d::Zero());
+}
+
+TEST_F(AHandThatFeels, FiveCentimetresAMillisecondIsTheFastestThatIsNoJump) {
+  tickUntilItRenders();
+  state_.pose.position.x() += 0.0499;
+  tick();
+  EXPECT_EQ(faults(Fault::Jump), 0);
+  state_.pose.position.x() += 0.0501;
+  tick();
+  EXPECT_EQ(faults(Fault::Jump), 1);
+  // From where it jumped to, it may go on; over two periods twice as far.
+  silentTick();
+  state_.pose.position.x() += 0.0999;
+  tick();
+  EXPECT_EQ(faults(Fault::Jump), 1);
+  state_.pose.orientation = Quaterniond(Eigen::AngleAxisd(0.51, Vector3d::UnitX()));
+  tick();
+  EXPECT_EQ(faults(Fault::Jump), 2);
+  state_.pose.orientation.coeffs() *= -1;  // the same rotation
+  tick();
+  EXPECT_EQ(faults(Fault::Jump), 2);
+}
+
+TEST_F(AHandThatFeels, ThreeSilentTicksBringTheForceToZeroAndAReportBringsItBackByARamp) {
+  tickUntilItRenders();
+  const double before = tick().force.norm();
+  EXPECT_EQ(silentTick().force.norm(), before) << "one is tolerated";
+  EXPECT_NEAR(silentTick().force.norm(), before / 2, 1e-12);
+  EXPECT_EQ(silentTick().force, Vector3d::Zero());
+  EXPECT_EQ(safety_.report().fault, Fault::Silent);
+  EXPECT_EQ(faults(Fault::Silent), 1);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(silentTick().force, Vector3d::Zero());
+  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, AReportInTimeEndsASilenceWithoutAFault) {
+  tickUntilItRenders();
+  silentTick();
+  EXPECT_LT(silentTick().force.norm(), 0.6);
+  EXPECT_EQ(tick().force, request_.wanted.force) << "half a newton is within the slew limit";
+  EXPECT_EQ(faults(Fault::Silent), 0);
+  EXPECT_EQ(phase(), SafetyPhase::Rendering);
+}
+
+TEST_F(AHandThatFeels, ASlowDeviceIsToleratedIfItsSilencesAre) {
+  settings_.toleratedSilence = 4;
+  settings_.largestSilence = 12;
+  safety_ = ForceSafety(settings_, kPeriod);
+  tickUntilItRenders();
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ((i % 4 ? silentTick() : tick()).force, request_.wanted.force);
+  }
+}
+
+TEST_F(AHandThatFeels, NothingInTheSameTickAsADeviceIsUnpluggedAndARampWhenItReturns) {
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    tickUntilItRenders();
+    present_ = false;
+    EXPECT_EQ(tick().force, Vector3d::Zero());
+    EXPECT_EQ(safety_.report().fault, Fault::Unplugged);
+    for (int i = 0; i < 100; ++i) tick();
+    present_ = true;
+    state_.pose.position.x() = 0.1 * cycle;  // wherever it comes back is no jump
+    expectToReturnByARamp();
+  }
+  EXPECT_EQ(faults(Fault::Unplugged), 3 * 101);
+  EXPECT_EQ(faults(Fault::Jump), 0);
+}
+
+TEST_F(AHandThatFeels, PluggingInAndOutForeverNeverRendersAForce) {
+  for (int cycle = 0; cycle < 10000; ++cycle) {
+    present_ = cycle % 2;
+    EXPECT_EQ(tick().force, Vector3d::Zero());
+  }
+}
+
+TEST_F(AHandThatFeels, ADeviceThatTakesNoForceIsAFault) {
+  tickUntilItRenders();
+  delivered_ = false;
+  for (int i = 0; i < 3; ++i) tick();
+  EXPECT_EQ(safety_.report().fault, Fault::None);
+  for (int i = 0; i < 10; ++i) tick();
+  EXPECT_EQ(safety_.report().fault, Fault::Undelivered);
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  delivered_ = true;
+  tick();
+  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, TheLastSoundForceFadesFromTheFirstFailedSolveOn) {
+  tickUntilItRenders();
+  const Vector3d before = tick().force;
+  for (double bad : {0.0, static_cast<double>(NAN)}) {
+    request_.wanted.force = {bad, 0, 5};
+    request_.certificate.failed = bad == 0;
+    for (int i = 1; i <= 2; ++i) EXPECT_LE((tick().force - (1 - 0.1 * i) * before).norm(), 1e-15);
+    EXPECT_EQ(faults(Fault::FailedSolves), 0) << "two in a row are passed over";
+    request_.wanted.force = before;
+    request_.certificate.failed = false;
+    EXPECT_EQ(tick().force, before);
+  }
+  request_.certificate.failed = true;
+  for (int i = 1; i <= 10; ++i) EXPECT_LE((tick().force - (1 - 0.1 * i) * before).norm(), 1e-15);
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  EXPECT_EQ(safety_.report().fault, Fault::FailedSolves);
+  request_.certificate.failed = false;
+  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, ManyLateSolvesInARowAreAFaultAndFewAreNot) {
+  tickUntilItRenders();
+  for (int i = 0; i < 200; ++i) {
+    request_.late = i % 20;
+    tick();
+  }
+  EXPECT_EQ(faults(Fault::LateSolves), 0);
+  request_.late = false;
+  tick();
+  request_.certificate.budgetCut = true;
+  for (int i = 0; i < 19; ++i) EXPECT_EQ(tick().force, request_.wanted.force);
+  for (int i = 0; i < 10; ++i) tick();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  EXPECT_EQ(safety_.report().fault, Fault::LateSolves);
+  request_.certificate.budgetCut = false;
+  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, PausingFadesWithoutAFaultAndResumingRamps) {
+  tickUntilItRenders();
+  const double before = tick().force.norm();
+  request_.paused = true;
+  EXPECT_NEAR(tick().force.norm(), 0.9 * before, 1e-12);
+  for (int i = 0; i < 9; ++i) tick();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  EXPECT_EQ(safety_.report().fault, Fault::None);
+  request_.paused = false;
+  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, ContactStartsAnewAfterWhatBreaksAPath) {
+  EXPECT_FALSE(safety_.startsAnew());
+  tick();
+  EXPECT_TRUE(safety_.startsAnew());
+  tick();
+  EXPECT_FALSE(safety_.startsAnew());
+  state_.pose.position.x() = 0.3;
+  tick();
+  EXPECT_FALSE(safety_.startsAnew()) << "the jump itself is not believed";
+  EXPECT_EQ(safety_.admit(true, state_, kPeriod).position.x(), 0);
+  tick();
+  EXPECT_TRUE(safety_.startsAnew());
+  present_ = false;
+  tick();
+  EXPECT_FALSE(safety_.startsAnew());
+  present_ = true;
+  tick();
+  EXPECT_TRUE(safety_.startsAnew());
+}
+
+TEST_F(AHandThatFeels, ATickAllocatesNothing) {
+  if (!allocationsAreCounted()) GTEST_SKIP();
+  const long before = allocationCount();
+  for (int i = 0; i < 1000; ++i) {
+    state_.pose.position.x() = i % 100 ? 0 : NAN;
+    present_ = i % 70;
+    tick();
+  }
+  EXPECT_EQ(allocationCount(), before);
+}
+
+TEST(ForceSafety, EveryFaultHasItsOwnWords) {
+  std::vector<std::string> words;
+  for (int f = 0; f < kFaultCount; ++f) {
+    words.push_back(describe(static_cast<Fault>(f)));
+    EXPECT_FALSE(words.back().empty());
+    for (int g = 0; g < f; ++g) EXPECT_NE(words[f], words[g]);
+  }
+}
+
+TEST(ForceSafety, RefusesSettingsThatProtectNobody) {
+  auto with = [](auto change, const char* name) {
+    return isRefused(
+        [&] {
+          SafetySettings settings;
+          change(settings);
+          ForceSafety(settings, kPeriod);
+        },
+        std::string("the safety setting ") + name + " is out of range");
+  };
+  EXPECT_TRUE(with([](auto& s) { s.largestForce = -1; }, "largestForce"));
+  EXPECT_TRUE(with([](auto& s) { s.largestForce = INFINITY; }, "largestForce"));
+  EXPECT_TRUE(with([](auto& s) { s.largestTorque = NAN; }, "largestTorque"));
+  EXPECT_TRUE(with([](auto& s) { s.forceSlew = 0; }, "forceSlew"));
+  EXPECT_TRUE(with([](auto& s) { s.torqueSlew = 0; }, "torqueSlew"));
+  EXPECT_TRUE(with([](auto& s) { s.fadeSeconds = 0; }, "fadeSeconds"));
+  EXPECT_TRUE(with([](auto& s) { s.settleSeconds = -1; }, "settleSeconds"));
+  EXPECT_TRUE(with([](auto& s) { s.rampSeconds = 0; }, "rampSeconds"));
+  EXPECT_TRUE(with([](auto& s) { s.largestSpeed = NAN; }, "largestSpeed"));
+  EXPECT_TRUE(with([](auto& s) { s.largestTurning = 0; }, "largestTurning"));
+  EXPECT_TRUE(with([](auto& s) { s.largestReach = INFINITY; }, "largestReach"));
+  EXPECT_TRUE(with([](auto& s) { s.toleratedSilence = -1; }, "toleratedSilence"));
+  EXPECT_TRUE(with([](auto& s) { s.largestSilence = 1; }, "largestSilence"));
+  EXPECT_TRUE(with([](auto& s) { s.failedSolves = 0; }, "failedSolves"));
+  EXPECT_TRUE(with([](auto& s) { s.lateSolves = 0; }, "lateSolves"));
+  EXPECT_TRUE(isRefused([] { ForceSafety({}, 0); }, "the safety setting period"));
+}
+
+}  // namespace
+}  // namespace palpate::test
