@@ -35,7 +35,7 @@ forbid("core prints" FILES ${all_core} PATTERN "std::(cout|cerr|clog)|[^a-z]f?pr
 forbid("a producer of Green's functions includes a consumer" FILES ${core}/bem/*.h ${core}/bem/*.cpp
   PATTERN "${include}(contact|haptics)/")
 forbid("a consumer of Green's functions includes a producer"
-  FILES ${core}/contact/*.h ${core}/contact/*.cpp
+  FILES ${core}/contact/*.h ${core}/contact/*.cpp ${core}/haptics/*.h ${core}/haptics/*.cpp
   PATTERN "${include}(bem|fem|halfspace|identification)/")
 forbid("the haptic room includes a producer of Green's functions"
   FILES ${core}/haptics/*.h ${core}/haptics/*.cpp

@@ -45,8 +45,7 @@ class PointContactOnASphere : public testing::Test {
   }
 
   Eigen::Vector3d placeOf(const SurfacePoint& point) const {
-    return body_->mesh->points()(Eigen::all, body_->mesh->triangles().col(point.triangle)) *
-           point.barycentric;
+    return palpate::placeOf(*body_->mesh, point);
   }
 
   static TouchedBody* body_;
@@ -263,27 +262,6 @@ TEST_F(PointContactOnASphere, ATickAllocatesNothing) {
   EXPECT_GT(sum.norm() + displacement.norm(), 0);
 }
 
-TEST_F(PointContactOnASphere, NearestPointsAreNearerThanAnyOther) {
-  const SurfaceMesh& mesh = *body_->mesh;
-  for (int trial = 0; trial < 30; ++trial) {
-    const Eigen::Vector3d place = 1.5 * randomVectors(1, random_);
-    const SurfacePoint nearest = nearestSurfacePoint(mesh, place);
-    EXPECT_GE(nearest.barycentric.minCoeff(), 0);
-    EXPECT_NEAR(nearest.barycentric.sum(), 1, 1e-15);
-    const double distance = (placeOf(nearest) - place).norm();
-    for (int other = 0; other < 2000; ++other) {
-      const Eigen::Vector3d weights = randomVectors(1, random_).cwiseAbs();
-      const SurfacePoint point{other % mesh.triangleCount(), weights / weights.sum()};
-      EXPECT_LE(distance, (placeOf(point) - place).norm() * (1 + 1e-14));
-    }
-    // On the surface itself it is the point.
-    EXPECT_LE((placeOf(nearestSurfacePoint(mesh, placeOf(nearest))) - placeOf(nearest)).norm(),
-              1e-15);
-  }
-  for (int v = 0; v < mesh.vertexCount(); ++v)
-    EXPECT_EQ(placeOf(nearestSurfacePoint(mesh, mesh.points().col(v))), mesh.points().col(v));
-}
-
 TEST_F(PointContactOnASphere, WhatIsNotOnTheSurfaceIsRefused) {
   const auto k = stiffness(0);
   for (int f : {-1, body_->mesh->triangleCount()})
@@ -300,11 +278,6 @@ TEST_F(PointContactOnASphere, WhatIsNotOnTheSurfaceIsRefused) {
         },
         "the barycentric coordinates of a contact must not be negative and must "
         "sum to 1"));
-  EXPECT_TRUE(isRefused(
-      [&] {
-        nearestSurfacePoint(*body_->mesh, {0, INFINITY, 0});
-      },
-      "the point to touch is not a finite number"));
 }
 
 }  // namespace

@@ -142,6 +142,12 @@ Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions) {
   return fromLists(points, triangles).welded(1e-9 * size.norm());
 }
 
+Shape boxWithNeedles(double width) {
+  return box({1, 1, 1}, {4, 4, 4}).mapped([&](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x() == 0.5 ? 0.25 + width : x.x(), x.y(), x.z());
+  });
+}
+
 Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundMinor) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;

@@ -44,6 +44,10 @@ Shape jitteredSphere(int levels, double amount, unsigned seed = 1);
 /// @param divisions  squares along x, y, z.
 Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions);
 
+/// Unit cube with 4 divisions whose grid lines at x = 1/2 stand this far beside those at 1/4:
+/// between them are needles.
+Shape boxWithNeedles(double width);
+
 /// Torus around the z axis.
 Shape torus(double majorRadius, double minorRadius, int aroundMajor, int aroundMinor);
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <Eigen/LU>
-#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -38,8 +37,7 @@ PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
   }
   density_ = Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 
-  staticPoint_ =
-      mesh.points()(Eigen::all, mesh.triangles().col(point.triangle)) * point.barycentric;
+  staticPoint_ = placeOf(mesh, point);
   hapticStiffness_ = stiffness_->hapticAt(point.triangle, point.barycentric);
   hapticCompliance_ = hapticStiffness_.inverse();
   elasticCompliance_ = complianceHere(point);
@@ -96,49 +94,6 @@ void PointContact::deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displa
   for (int node = 0; node < n; ++node)
     if (greens.isFixed(node)) displacement.col(node).swap(traction.col(node));
   for (int j = 0; j < masked; ++j) traction.col(nodes_[j]) = density_[j] * force;
-}
-
-namespace {
-
-/// Point of a triangle nearest to x, in barycentric coordinates (Ericson, "Real-time collision
-/// detection", 5.1.5).
-Eigen::Vector3d nearestInTriangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
-                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a, ac = c - a;
-  const double d1 = ab.dot(x - a), d2 = ac.dot(x - a);
-  const double d3 = ab.dot(x - b), d4 = ac.dot(x - b);
-  const double d5 = ab.dot(x - c), d6 = ac.dot(x - c);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
-}  // namespace
-
-SurfacePoint nearestSurfacePoint(const SurfaceMesh& mesh, const Eigen::Vector3d& place) {
-  if (!place.allFinite()) throw std::invalid_argument("the point to touch is not a finite number");
-  SurfacePoint nearest{0, Eigen::Vector3d::Zero()};
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    const Eigen::Matrix3d corners = mesh.points()(Eigen::all, mesh.triangles().col(f));
-    const Eigen::Vector3d barycentric =
-        nearestInTriangle(place, corners.col(0), corners.col(1), corners.col(2));
-    const double distance = (corners * barycentric - place).squaredNorm();
-    if (distance < smallest) {
-      smallest = distance;
-      nearest = {f, barycentric};
-    }
-  }
-  return nearest;
 }
 
 }  // namespace palpate

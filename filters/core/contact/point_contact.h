@@ -7,14 +7,9 @@
 #include <memory>
 
 #include "contact/surface_stiffness.h"
+#include "mesh/surface_point.h"
 
 namespace palpate {
-
-/// A place on the surface in surface coordinates.
-struct SurfacePoint {
-  int triangle;
-  Eigen::Vector3d barycentric;
-};
 
 /// The points of a contact ([JP01] fig. 8) and what acts there.
 struct ContactResponse {
@@ -63,8 +58,5 @@ class PointContact {
   std::vector<int> nodes_;             ///< of the combined mask
   Eigen::VectorXd density_;  ///< sum over the triangle's free vertices of phi_i(x) rho^i_j, 1/m^2
 };
-
-/// The point of the surface nearest to a place (search over all triangles).
-SurfacePoint nearestSurfacePoint(const SurfaceMesh& mesh, const Eigen::Vector3d& place);
 
 }  // namespace palpate

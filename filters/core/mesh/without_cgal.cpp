@@ -8,6 +8,7 @@
 #include "mesh/mesh_defects.h"
 #include "mesh/polygon_file.h"
 #include "mesh/repair.h"
+#include "mesh/triangle_tree.h"
 #include "mesh/wall_thickness.h"
 
 namespace palpate {
@@ -31,6 +32,25 @@ PolygonSoup readPlyFile(const std::string&) {
 RepairedSurface repairSurface(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
                               const ProgressCallback&) {
   throw std::runtime_error("repair needs CGAL, which this build of Palpate was made without");
+}
+
+struct TriangleTree::Boxes {
+  template <class Query>
+  void ask(Query& query) const {
+    for (int f = 0; f < mesh->triangleCount(); ++f) query.visit(f);
+  }
+  std::shared_ptr<const SurfaceMesh> mesh;
+};
+
+TriangleTree::TriangleTree(std::shared_ptr<const SurfaceMesh> mesh)
+    : boxes_(new Boxes{std::move(mesh)}) {}
+TriangleTree::~TriangleTree() = default;
+
+void TriangleTree::ask(NearestPoint& query) const noexcept {
+  boxes_->ask(query);
+}
+void TriangleTree::ask(FirstCrossing& query) const noexcept {
+  boxes_->ask(query);
 }
 
 }  // namespace palpate
