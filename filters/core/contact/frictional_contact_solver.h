@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/contact_certificate.h"
+#include "contact/contact_compliance.h"
+
+namespace palpate {
+
+/// What is known of one contact before a solve.
+struct ContactConditions {
+  /// Unit, out of the obstacle: the way the surface can leave.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  /// Position relative to the obstacle without any contact force, m: its normal component is the
+  /// gap, its tangential part the slip.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double friction = 0;     ///< Coulomb's mu, >= 0; infinite: it never slips
+  bool bilateral = false;  ///< held: neither gap nor slip, whatever the force
+};
+
+enum class ContactStatus { Open, Stick, Slip };
+
+/// Limits of one solve.
+struct ContactSolverSettings {
+  /// Of |f - P(f - r v)|, the residual of the projection form, over the largest force.
+  double tolerance = 1e-9;
+  int largestIterations = 100;
+  /// Rank-three updates of the inverse in one solve; 0 for no limit, then it may also be factored
+  /// afresh.
+  int largestUpdates = 0;
+};
+
+/// Unilateral contact with Coulomb friction between elastic bodies and obstacles (Signorini and
+/// Coulomb, quasi-static): forces f and relative positions v = W f + offset such that in each
+/// contact
+///   v_n >= 0, f_n >= 0, v_n f_n = 0,  |f_t| <= mu f_n,  v_t = 0 or f_t = -mu f_n v_t / |v_t|.
+///
+/// Solved by the semismooth Newton method on the projection form f = P(f - r v) of P. Alart and
+/// A. Curnier, "A mixed formulation for frictional contact problems prone to Newton like solution
+/// methods", Comput. Methods Appl. Mech. Eng. 92 (1991); without friction it is the primal-dual
+/// active set method of M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002). The
+/// inverse of the Newton matrix stays from one solve to the next: a contact that enters, leaves or
+/// changes between open, stick and slip costs an update of O(s^2), as in [JP01] section 4.3, and
+/// what has changed little since is left to the iteration. Where Newton's steps do not gain, sweeps
+/// of nonlinear Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)) go on from the
+/// best point so far. Contacts may depend on each other: the matrix is regularised, the residual is
+/// not.
+///
+/// All memory is reserved by the constructor; nothing else allocates or throws. The work of a solve
+/// is bounded by its settings alone, so that equal input gives equal output bit by bit.
+class FrictionalContactSolver {
+ public:
+  /// @throws as ContactCompliance; std::invalid_argument for a tolerance that is not positive or
+  ///         limits below one (updates: below zero).
+  FrictionalContactSolver(std::vector<std::shared_ptr<const GreensFunctions>> bodies,
+                          double rigidStiffness, int capacity, ContactSolverSettings settings = {});
+
+  const ContactCompliance& compliance() const { return compliance_; }
+  int count() const { return compliance_.count(); }
+
+  /// Appends an open contact; its conditions are to be set before the next solve.
+  /// @return false as ContactCompliance::add.
+  bool add(const ContactSite& site) noexcept;
+  /// Removes a contact and its force; the last one takes its number.
+  void remove(int contact) noexcept;
+  void clear() noexcept;
+
+  ContactConditions& conditions(int contact) { return conditions_[contact]; }
+
+  /// Solves for all forces from those of the last solve on.
+  ContactCertificate solve() noexcept;
+
+  /// On the body of the site's first part, N.
+  Eigen::Vector3d force(int contact) const { return forces_.segment<3>(3 * contact); }
+  void setForce(int contact, const Eigen::Vector3d& force) {
+    forces_.segment<3>(3 * contact) = force;
+  }
+  /// W f of the last solve: the displacement of a contact under all forces, m.
+  Eigen::Vector3d displacement(int contact) const {
+    return velocity_.segment<3>(3 * contact) - conditions_[contact].offset;
+  }
+  ContactStatus status(int contact) const { return status_[contact]; }
+  /// Updates of the inverse since the constructor, and factorisations afresh.
+  long updates() const { return updates_; }
+  long factorisations() const { return factorisations_; }
+
+ private:
+  struct Projection;
+  Projection project(int contact, const Eigen::Vector3d& force,
+                     const Eigen::Vector3d& velocity) const noexcept;
+  double evaluate() noexcept;
+  double clipped() noexcept;
+  int staleCount() const noexcept;
+  bool isStale(int contact) const noexcept;
+  int renew(int mostUpdates) noexcept;
+  void replaceRows(int contact, const Eigen::Matrix3d& share) noexcept;
+  void setRows(int contact, const Eigen::Matrix3d& share, double* rows) const noexcept;
+  bool factor() noexcept;
+  void newtonStep() noexcept;
+  void sweep() noexcept;
+  double largestForce() const noexcept;
+  double* column(int k) { return inverse_.data() + std::size_t(k) * stride_; }
+
+  ContactCompliance compliance_;
+  ContactSolverSettings settings_;
+  int stride_;
+  std::vector<ContactConditions> conditions_;
+  std::vector<ContactStatus> status_;
+  std::vector<Eigen::Matrix3d> share_;   ///< D, the derivative of P, that the inverse is of
+  std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
+  std::vector<double> scale_;            ///< r, N/m
+  Eigen::VectorXd forces_, velocity_, residual_, best_, step_;
+  AlignedBuffer<double> inverse_, factor_;
+  AlignedBuffer<double> left_, right_, scratch_;  ///< stride by 3
+  std::vector<int> pivots_;
+  int cursor_ = 0;          ///< contact whose rows were replaced last
+  bool unsettled_ = false;  ///< whether the last solve was cut
+  long updates_ = 0, factorisations_ = 0;
+};
+
+}  // namespace palpate
