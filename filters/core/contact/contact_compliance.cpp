@@ -25,6 +25,7 @@ ContactCompliance::ContactCompliance(std::vector<std::shared_ptr<const GreensFun
     throw std::invalid_argument("there must be room for at least one contact, not for " +
                                 std::to_string(capacity));
   for (const auto& body : bodies_) symmetric_ = symmetric_ && body->info().reciprocal;
+  orientations_.assign(bodies_.size(), Eigen::Matrix3d::Identity());
   sites_.resize(capacity);
   matrix_ = AlignedBuffer<double>(std::size_t(stride_) * 3 * capacity);
   std::fill_n(matrix_.data(), matrix_.size(), 0);
@@ -45,6 +46,7 @@ void ContactCompliance::gatherBorder(const ContactSite& site) noexcept {
   for (int p = 0; p < site.count; ++p) {
     const ContactSite::Part& part = site.parts[p];
     const GreensFunctions& greens = *bodies_[part.body];
+    const Eigen::Matrix3d& turn = orientations_[part.body];
     if (greens.isFixed(part.node)) continue;
     int present = 0;
     for (int i = 0; i < count_; ++i)
@@ -58,16 +60,18 @@ void ContactCompliance::gatherBorder(const ContactSite& site) noexcept {
     const Eigen::Map<const Eigen::VectorXi> nodes(nodes_.data(), present);
     const Eigen::Map<const Eigen::VectorXi> self(&part.node, 1);
     greens.gather(nodes, self, blocks_.data());
-    const Eigen::Map<const Eigen::MatrixXd> columns(blocks_.data(), 3 * present, 3);
+    const Eigen::Map<const Eigen::MatrixX3d> columns(blocks_.data(), 3 * present, 3);
     for (int k = 0; k < present; ++k)
       Eigen::Map<Eigen::Matrix3d>(columnBorder_.data() + 9 * owners_[k]) +=
-          part.weight * weights_[k] / greens.vertexArea(part.node) * columns.middleRows<3>(3 * k);
+          part.weight * weights_[k] / greens.vertexArea(part.node) *
+          (turn * columns.middleRows<3>(3 * k) * turn.transpose());
     if (symmetric_) continue;
     greens.gather(self, nodes, blocks_.data());
     const Eigen::Map<const Eigen::Matrix3Xd> rows(blocks_.data(), 3, 3 * present);
     for (int k = 0; k < present; ++k)
       Eigen::Map<Eigen::Matrix3d>(rowBorder_.data() + 9 * owners_[k]) +=
-          part.weight * weights_[k] / greens.vertexArea(nodes_[k]) * rows.middleCols<3>(3 * k);
+          part.weight * weights_[k] / greens.vertexArea(nodes_[k]) *
+          (turn * rows.middleCols<3>(3 * k) * turn.transpose());
   }
   if (symmetric_)
     for (int i = 0; i < count_; ++i)
@@ -90,35 +94,49 @@ Eigen::Matrix3d ContactCompliance::ownBlock(const ContactSite& site) const noexc
       Eigen::Matrix3d block;
       greens.gather(Eigen::Map<const Eigen::VectorXi>(&row.node, 1),
                     Eigen::Map<const Eigen::VectorXi>(&column.node, 1), block.data());
-      own += row.weight * column.weight / greens.vertexArea(column.node) * block;
+      own += row.weight * column.weight / greens.vertexArea(column.node) *
+             (orientations_[row.body] * block * orientations_[row.body].transpose());
     }
   }
   return own;
 }
 
+bool ContactCompliance::hasColumns(const ContactSite& site) const noexcept {
+  return std::all_of(site.parts.begin(), site.parts.begin() + site.count, [&](const auto& part) {
+    return bodies_[part.body]->isFixed(part.node) || bodies_[part.body]->hasColumn(part.node);
+  });
+}
+
 bool ContactCompliance::add(const ContactSite& site) noexcept {
-  if (count_ == capacity_) return false;
-  for (int p = 0; p < site.count; ++p) {
-    const ContactSite::Part& part = site.parts[p];
-    if (!bodies_[part.body]->isFixed(part.node) && !bodies_[part.body]->hasColumn(part.node))
-      return false;
-  }
+  if (count_ == capacity_ || !hasColumns(site)) return false;
+  sites_[count_] = {};  // without parts: it has no share in its own border
+  move(count_++, site);
+  return true;
+}
+
+void ContactCompliance::move(int contact, const ContactSite& site) noexcept {
   gatherBorder(site);
-  const int n = count_++;
-  sites_[n] = site;
+  sites_[contact] = site;
   const Eigen::Matrix3d own = ownBlock(site);
   for (int j = 0; j < 3; ++j) {
-    double* newColumn = mutableColumn(3 * n + j);
-    for (int i = 0; i < n; ++i) {
+    double* newColumn = mutableColumn(3 * contact + j);
+    for (int i = 0; i < count_; ++i)
       for (int k = 0; k < 3; ++k) {
         newColumn[3 * i + k] = columnBorder_[9 * i + 3 * j + k];
-        mutableColumn(3 * i + k)[3 * n + j] = rowBorder_[9 * i + 3 * k + j];
+        mutableColumn(3 * i + k)[3 * contact + j] = rowBorder_[9 * i + 3 * k + j];
       }
-    }
-    std::fill(newColumn + 3 * n, newColumn + stride_, 0);
-    for (int k = 0; k < 3; ++k) newColumn[3 * n + k] = own(k, j);
+    std::fill(newColumn + 3 * count_, newColumn + stride_, 0);
   }
-  return true;
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k) mutableColumn(3 * contact + j)[3 * contact + k] = own(k, j);
+}
+
+void ContactCompliance::turn(int body, const Eigen::Matrix3d& orientation) noexcept {
+  orientations_[body] = orientation;
+  for (int i = 0; i < count_; ++i)
+    if (std::any_of(sites_[i].parts.begin(), sites_[i].parts.begin() + sites_[i].count,
+                    [&](const auto& part) { return part.body == body; }))
+      move(i, ContactSite(sites_[i]));
 }
 
 void ContactCompliance::remove(int contact) noexcept {

@@ -44,6 +44,10 @@ class ContactCompliance {
   ContactCompliance(std::vector<std::shared_ptr<const GreensFunctions>> bodies,
                     double rigidStiffness, int capacity);
 
+  /// Turns a body: its Green's functions are those of its own frame, contacts are in a common one.
+  /// Costs O(s^2).
+  void turn(int body, const Eigen::Matrix3d& orientation) noexcept;
+
   int count() const { return count_; }
   int capacity() const { return capacity_; }
   const GreensFunctions& body(int body) const { return *bodies_[body]; }
@@ -53,6 +57,9 @@ class ContactCompliance {
   /// Appends a contact. @return false, with nothing changed, beyond the capacity or at a free node
   /// without column.
   bool add(const ContactSite& site) noexcept;
+
+  /// Moves a contact to another site, of nodes that have columns.
+  void move(int contact, const ContactSite& site) noexcept;
 
   /// Removes a contact; the last one takes its number.
   void remove(int contact) noexcept;
@@ -77,11 +84,13 @@ class ContactCompliance {
   bool isSymmetric() const { return symmetric_; }
 
  private:
+  bool hasColumns(const ContactSite& site) const noexcept;
   void gatherBorder(const ContactSite& site) noexcept;
   Eigen::Matrix3d ownBlock(const ContactSite& site) const noexcept;
   double* mutableColumn(int k) { return matrix_.data() + std::size_t(k) * stride_; }
 
   std::vector<std::shared_ptr<const GreensFunctions>> bodies_;
+  std::vector<Eigen::Matrix3d> orientations_;
   double rigidStiffness_;
   int capacity_, stride_, count_ = 0;
   bool symmetric_ = true;

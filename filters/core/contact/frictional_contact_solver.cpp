@@ -39,7 +39,7 @@ FrictionalContactSolver::FrictionalContactSolver(
   share_.resize(capacity);
   wanted_.resize(capacity);
   scale_.resize(capacity);
-  for (Eigen::VectorXd* vector : {&forces_, &velocity_, &residual_, &best_, &step_})
+  for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &best_, &step_})
     vector->setZero(stride_);
   const std::size_t size = std::size_t(stride_) * 3 * capacity;
   inverse_ = AlignedBuffer<double>(size);
@@ -60,7 +60,7 @@ bool FrictionalContactSolver::add(const ContactSite& site) noexcept {
   status_[n] = ContactStatus::Open;
   conditions_[n] = {};
   forces_.segment<3>(3 * n).setZero();
-  velocity_.segment<3>(3 * n).setZero();
+  displacement_.segment<3>(3 * n).setZero();
   // The new rows of the Newton matrix are those of the identity; its new columns reach the contacts
   // that are not open: b = r D W. The inverse's new columns are -H b.
   double *b = left_.data(), *x = scratch_.data(), *unused = right_.data();
@@ -90,7 +90,7 @@ void FrictionalContactSolver::remove(int contact) noexcept {
     share_[contact] = share_[last];
     wanted_[contact] = wanted_[last];
     scale_[contact] = scale_[last];
-    for (Eigen::VectorXd* vector : {&forces_, &velocity_, &residual_})
+    for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_})
       vector->segment<3>(3 * contact) = vector->segment<3>(3 * last);
     for (int j = 0; j < 3; ++j)
       std::copy_n(column(3 * last + j), 3 * (last + 1), column(3 * contact + j));
@@ -98,7 +98,7 @@ void FrictionalContactSolver::remove(int contact) noexcept {
       std::copy_n(column(k) + 3 * last, 3, column(k) + 3 * contact);
   }
   for (int k = 0; k < 3 * last; ++k) std::fill_n(column(k) + 3 * last, 3, 0);
-  for (Eigen::VectorXd* vector : {&forces_, &velocity_, &residual_, &step_})
+  for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &step_})
     vector->segment<3>(3 * last).setZero();
 }
 
@@ -120,10 +120,10 @@ struct FrictionalContactSolver::Projection {
   ContactStatus status;
 };
 
-FrictionalContactSolver::Projection FrictionalContactSolver::project(
-    int contact, const Eigen::Vector3d& force, const Eigen::Vector3d& velocity) const noexcept {
+FrictionalContactSolver::Projection FrictionalContactSolver::project(int contact) const noexcept {
   const ContactConditions& conditions = conditions_[contact];
-  const Eigen::Vector3d z = force - scale_[contact] * velocity;
+  const Eigen::Vector3d z =
+      force(contact) - scale_[contact] * (displacement(contact) + conditions.offset);
   if (conditions.bilateral) return {z, Eigen::Matrix3d::Identity(), ContactStatus::Stick};
   const Eigen::Vector3d& n = conditions.normal;
   const double pressure = n.dot(z);
@@ -150,14 +150,17 @@ double FrictionalContactSolver::largestForce() const noexcept {
   return std::sqrt(largest);
 }
 
-/// v = W f + offset, the residual f - P(f - r v) and the shares; returns the largest residual over
+void FrictionalContactSolver::updateDisplacements() noexcept {
+  compliance_.multiply(forces_.data(), displacement_.data());
+}
+
+/// Displacements, the residual f - P(f - r v) and the shares; returns the largest residual over
 /// the largest force.
 double FrictionalContactSolver::evaluate() noexcept {
-  compliance_.multiply(forces_.data(), velocity_.data());
+  updateDisplacements();
   double worst = 0, largest = 0;
   for (int i = 0; i < count(); ++i) {
-    velocity_.segment<3>(3 * i) += conditions_[i].offset;
-    const Projection projection = project(i, force(i), velocity_.segment<3>(3 * i));
+    const Projection projection = project(i);
     wanted_[i] = projection.share;
     status_[i] = projection.status;
     residual_.segment<3>(3 * i) = force(i) - projection.force;
@@ -274,9 +277,9 @@ void FrictionalContactSolver::newtonStep() noexcept {
 void FrictionalContactSolver::sweep() noexcept {
   for (int i = 0; i < count(); ++i) {
     const Eigen::Vector3d before = force(i);
-    const Eigen::Vector3d after = project(i, before, velocity_.segment<3>(3 * i)).force;
+    const Eigen::Vector3d after = project(i).force;
     forces_.segment<3>(3 * i) = after;
-    compliance_.addColumn(i, after - before, velocity_.data());
+    compliance_.addColumn(i, after - before, displacement_.data());
   }
 }
 

@@ -69,20 +69,26 @@ class FrictionalContactSolver {
   void remove(int contact) noexcept;
   void clear() noexcept;
 
+  /// As ContactCompliance's. Newton's matrix follows as its rows are refreshed.
+  void turn(int body, const Eigen::Matrix3d& orientation) noexcept {
+    compliance_.turn(body, orientation);
+  }
+  void move(int contact, const ContactSite& site) noexcept { compliance_.move(contact, site); }
+
   ContactConditions& conditions(int contact) { return conditions_[contact]; }
 
   /// Solves for all forces from those of the last solve on.
   ContactCertificate solve() noexcept;
+  /// Brings displacements up to the present forces, as after contacts have entered.
+  void updateDisplacements() noexcept;
 
   /// On the body of the site's first part, N.
   Eigen::Vector3d force(int contact) const { return forces_.segment<3>(3 * contact); }
   void setForce(int contact, const Eigen::Vector3d& force) {
     forces_.segment<3>(3 * contact) = force;
   }
-  /// W f of the last solve: the displacement of a contact under all forces, m.
-  Eigen::Vector3d displacement(int contact) const {
-    return velocity_.segment<3>(3 * contact) - conditions_[contact].offset;
-  }
+  /// W f: the displacement of a contact under all forces of the last solve or update, m.
+  Eigen::Vector3d displacement(int contact) const { return displacement_.segment<3>(3 * contact); }
   ContactStatus status(int contact) const { return status_[contact]; }
   /// Updates of the inverse since the constructor, and factorisations afresh.
   long updates() const { return updates_; }
@@ -90,8 +96,7 @@ class FrictionalContactSolver {
 
  private:
   struct Projection;
-  Projection project(int contact, const Eigen::Vector3d& force,
-                     const Eigen::Vector3d& velocity) const noexcept;
+  Projection project(int contact) const noexcept;
   double evaluate() noexcept;
   double clipped() noexcept;
   int staleCount() const noexcept;
@@ -113,7 +118,7 @@ class FrictionalContactSolver {
   std::vector<Eigen::Matrix3d> share_;   ///< D, the derivative of P, that the inverse is of
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
   std::vector<double> scale_;            ///< r, N/m
-  Eigen::VectorXd forces_, velocity_, residual_, best_, step_;
+  Eigen::VectorXd forces_, displacement_, residual_, best_, step_;
   AlignedBuffer<double> inverse_, factor_;
   AlignedBuffer<double> left_, right_, scratch_;  ///< stride by 3
   std::vector<int> pivots_;

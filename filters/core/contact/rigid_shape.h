@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace palpate {
+
+/// Where a rigid body is: a point x of its own frame lies at position + orientation x.
+struct RigidPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+
+  Eigen::Vector3d toWorld(const Eigen::Vector3d& own) const { return position + orientation * own; }
+  Eigen::Vector3d toOwn(const Eigen::Vector3d& world) const {
+    return orientation.conjugate() * (world - position);
+  }
+};
+
+/// How a place lies to a body.
+struct Proximity {
+  double distance;         ///< m, negative inside
+  Eigen::Vector3d normal;  ///< unit, the way out: the distance's gradient
+  int triangle = -1;       ///< the nearest one, of bodies that have triangles
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();  ///< of the nearest point there
+};
+
+/// The shape of a tool in its own frame. Queries are const, allocate nothing and are safe from
+/// several threads.
+class RigidShape {
+ public:
+  virtual ~RigidShape() = default;
+  /// @param place  in the shape's frame, finite.
+  virtual Proximity proximity(const Eigen::Vector3d& place) const noexcept = 0;
+  /// Radius of a ball around the frame's origin that holds the shape, m; infinite for a half space.
+  virtual double reach() const noexcept = 0;
+};
+
+/// A ball around the origin.
+class SphereShape final : public RigidShape {
+ public:
+  /// @throws std::invalid_argument for a radius that is not positive.
+  explicit SphereShape(double radius);
+  Proximity proximity(const Eigen::Vector3d& place) const noexcept override;
+  double reach() const noexcept override { return radius_; }
+
+ private:
+  double radius_;
+};
+
+/// All within a radius of a segment.
+class CapsuleShape final : public RigidShape {
+ public:
+  /// @param from, to  the segment's ends, m; may coincide.
+  /// @throws std::invalid_argument for a radius that is not positive or ends that are not finite.
+  CapsuleShape(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
+  Proximity proximity(const Eigen::Vector3d& place) const noexcept override;
+  double reach() const noexcept override;
+
+ private:
+  Eigen::Vector3d from_, axis_;
+  double radius_;
+};
+
+/// The half space below z = 0.
+class PlaneShape final : public RigidShape {
+ public:
+  Proximity proximity(const Eigen::Vector3d& place) const noexcept override {
+    return {place.z(), Eigen::Vector3d::UnitZ()};
+  }
+  double reach() const noexcept override { return std::numeric_limits<double>::infinity(); }
+};
+
+}  // namespace palpate
