@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "contact/mesh_shape.h"
+
+#include <cmath>
+
+#include "mesh/triangle_sides.h"
+
+namespace palpate {
+namespace {
+
+Eigen::Matrix3Xd angleWeightedNormals(const SurfaceMesh& mesh) {
+  Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, mesh.vertexCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d corner = mesh.points().col(mesh.triangles()(k, f));
+      const Eigen::Vector3d a = mesh.points().col(mesh.triangles()((k + 1) % 3, f)) - corner;
+      const Eigen::Vector3d b = mesh.points().col(mesh.triangles()((k + 2) % 3, f)) - corner;
+      normals.col(mesh.triangles()(k, f)) +=
+          std::atan2(a.cross(b).norm(), a.dot(b)) * mesh.triangleNormals().col(f);
+    }
+  return normals;
+}
+
+/// Sums of the normals on both sides of the edge opposite to corner k of triangle f, at 3 f + k.
+Eigen::Matrix3Xd edgeNormals(const SurfaceMesh& mesh) {
+  Eigen::Matrix3Xd normals(3, 3 * mesh.triangleCount());
+  forEachEdge(sortedSides(mesh.triangles()), [&](auto first, auto last) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (auto side = first; side != last; ++side) sum += mesh.triangleNormals().col(side->triangle);
+    for (auto side = first; side != last; ++side)
+      for (int k = 0; k < 3; ++k) {
+        const int vertex = mesh.triangles()(k, side->triangle);
+        if (vertex != side->low && vertex != side->high) normals.col(3 * side->triangle + k) = sum;
+      }
+  });
+  return normals;
+}
+
+}  // namespace
+
+MeshShape::MeshShape(std::shared_ptr<const SurfaceMesh> mesh)
+    : locator_(mesh),
+      vertexNormals_(angleWeightedNormals(*mesh)),
+      edgeNormals_(edgeNormals(*mesh)),
+      reach_(mesh->points().colwise().norm().maxCoeff()) {}
+
+Eigen::Vector3d MeshShape::pseudonormal(const SurfacePoint& point) const noexcept {
+  constexpr double onEdge = 1e-12;
+  const Eigen::Vector3d& weights = point.barycentric;
+  int corner = -1, zeros = 0;
+  for (int k = 0; k < 3; ++k)
+    if (weights[k] <= onEdge) {
+      ++zeros;
+      corner = k;
+    }
+  if (zeros == 0) return locator_.mesh().triangleNormals().col(point.triangle);
+  if (zeros == 1) return edgeNormals_.col(3 * point.triangle + corner);
+  int largest;
+  weights.maxCoeff(&largest);
+  return vertexNormals_.col(locator_.mesh().triangles()(largest, point.triangle));
+}
+
+Proximity MeshShape::proximity(const Eigen::Vector3d& place) const noexcept {
+  const SurfacePoint nearest = locator_.nearest(place);
+  const Eigen::Vector3d away = place - placeOf(locator_.mesh(), nearest);
+  const Eigen::Vector3d outwards = pseudonormal(nearest);
+  const double length = away.norm(), sign = away.dot(outwards) < 0 ? -1 : 1;
+  Proximity proximity;
+  proximity.distance = sign * length;
+  // On the surface itself, and as near as rounding, the direction of the difference means nothing.
+  proximity.normal = length > 1e-9 * reach_ ? (sign / length * away).eval() : outwards.normalized();
+  proximity.triangle = nearest.triangle;
+  proximity.barycentric = nearest.barycentric;
+  return proximity;
+}
+
+}  // namespace palpate

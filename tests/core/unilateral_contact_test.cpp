@@ -1,0 +1,439 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "contact/unilateral_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/mesh_shape.h"
+#include "support/allocation_count.h"
+#include "support/contact_bodies.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A unit sphere, fixed below, with a mesh that gets fine towards its north pole.
+const TouchedBody& polishedSphere() {
+  static const TouchedBody body = [] {
+    const Shape shape =
+        ringedSphere([](double angle) { return std::max(0.005, 0.3 * (angle - 0.02)); }, {2.3});
+    return touchedBody(shape, fixedWhere(shape, [](const auto& x) { return x.z() < -0.7; }), true);
+  }();
+  return body;
+}
+
+/// For steps that each stand for themselves: gaps linearised until they are met.
+UnilateralContactSettings still(int capacity, double margin = 0) {
+  UnilateralContactSettings settings;
+  settings.capacity = capacity;
+  settings.margin = margin;
+  settings.linearisations = 6;
+  return settings;
+}
+
+RigidPose at(double x, double y, double z) {
+  RigidPose pose;
+  pose.position = {x, y, z};
+  return pose;
+}
+
+std::vector<Obstacle> ball(double radius, double friction = 0) {
+  return {{std::make_shared<SphereShape>(radius), friction}};
+}
+
+/// The half space above a height, as a tool that comes down on the pole.
+RigidPose plate(double height, double x = 0) {
+  RigidPose pose;
+  pose.position = {x, 0, height};
+  pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
+  return pose;
+}
+
+/// How the pressures at watched vertices differ from Hertz's under the same force: root mean square
+/// over area, relative to his.
+double profileError(const UnilateralContact& contact, const TouchedBody& body, double radius) {
+  const double force = contact.wrench(0).force.z();
+  double difference = 0, norm = 0;
+  for (int i = 0; i < contact.watchedCount(); ++i) {
+    const UnilateralContact::Watched watched = contact.watched(i);
+    const double r = body.mesh->points().col(watched.vertex).head<2>().norm() / radius;
+    const double peak = 3 * force / (2 * kPi * radius * radius);
+    const double hertz = r < 1 ? peak * std::sqrt(1 - r * r) : 0;
+    const double area = body.greens->vertexArea(watched.vertex);
+    const double pressure = -watched.force.z() / area;
+    difference += area * (pressure - hertz) * (pressure - hertz);
+    norm += area * hertz * hertz;
+  }
+  return std::sqrt(difference / norm);
+}
+
+constexpr double kModulus = 2.5 / (1 - 0.3 * 0.3);  ///< E* of touchedBody against a rigid tool
+
+TEST(UnilateralContact, ABallPressesAsHertzFound) {
+  constexpr double radius = 0.1, effective = radius / (radius + 1);
+  const TouchedBody& body = polishedSphere();
+  UnilateralContact contact(body.greens, body.mesh, ball(radius), still(300, 0.004));
+  std::vector<double> forces;
+  for (double depth : {0.004, 0.006, 0.008}) {
+    const RigidPose pose = at(0, 0, 1 + radius - depth);
+    EXPECT_LE(contact.step(&pose).residual, 1e-9);
+    const double force = contact.wrench(0).force.z();
+    forces.push_back(force);
+    // Beyond the mesh, the body's own size matters by contact radius over radius, .03.
+    EXPECT_NEAR(force / (4.0 / 3 * kModulus * std::sqrt(effective) * std::pow(depth, 1.5)), 1,
+                0.02);
+    EXPECT_LE(profileError(contact, body, std::cbrt(3 * force * effective / (4 * kModulus))), 0.05);
+    EXPECT_LE(contact.penetration(), 1e-10);
+  }
+  EXPECT_NEAR(std::log(forces[2] / forces[0]) / std::log(2), 1.5, 0.03);
+}
+
+TEST(UnilateralContact, NoVertexOfTheWholeSurfaceEndsInTheTool) {
+  const TouchedBody body = touchedSphere(3, true);
+  const int n = body.mesh->vertexCount();
+  UnilateralContact contact(body.greens, body.mesh, ball(0.4, 0.4), still(300));
+  for (double depth = 0; depth < 0.1; depth += 0.01) {
+    const RigidPose pose = at(0.3 * depth, 0, 1.4 - depth);
+    EXPECT_LE(contact.step(&pose).residual, 1e-9);
+    Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, n);
+    for (int i = 0; i < contact.watchedCount(); ++i) {
+      const auto watched = contact.watched(i);
+      traction.col(watched.vertex) = watched.force / body.mesh->vertexAreas()[watched.vertex];
+    }
+    const Eigen::Matrix3Xd displacement = solveReferenceProblem(*body.greens, traction);
+    for (int v = 0; v < n; ++v) {
+      if (body.greens->isFixed(v)) continue;
+      const Eigen::Vector3d place = body.mesh->points().col(v) + displacement.col(v);
+      EXPECT_GE((place - pose.position).norm(), 0.4 - 1e-6) << v;
+    }
+  }
+}
+
+TEST(UnilateralContact, SlidingAPlateTakesAmontonsForce) {
+  for (double friction : {0.1, 0.5}) {
+    const TouchedBody& body = polishedSphere();
+    UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), friction}},
+                              still(300, 0.004));
+    double before = 0;
+    for (int tick = 0; tick <= 40; ++tick) {
+      const RigidPose pose = plate(0.999, 1e-4 * tick);
+      EXPECT_LE(contact.step(&pose).residual, 1e-9);
+      const Eigen::Vector3d force = contact.wrench(0).force;
+      const double ratio = force.head<2>().norm() / force.z();
+      EXPECT_LE(ratio, friction * (1 + 1e-8));
+      EXPECT_GE(ratio, before * (1 - 1e-6));  // partial slip spreads until all slips
+      before = ratio;
+    }
+    const Eigen::Vector3d force = contact.wrench(0).force;
+    EXPECT_NEAR(-force.x() / force.z(), friction, 1e-6 * friction);  // against the motion
+    for (int i = 0; i < contact.watchedCount(); ++i)
+      EXPECT_NE(contact.watched(i).status, ContactStatus::Stick);
+  }
+}
+
+/// A block that rests on one vertex, pulled at an angle from the normal of what it rests on, as by
+/// its weight on an incline.
+TEST(UnilateralContact, ABlockOnAnInclineSlipsBeyondTheAngleOfFriction) {
+  const TouchedBody& body = polishedSphere();
+  int pole;
+  body.mesh->points().row(2).maxCoeff(&pole);
+  ContactCompliance own({body.greens}, 1, 1);
+  ASSERT_TRUE(own.add(ContactSite::atNode(0, pole)));
+  constexpr double friction = 0.4;
+  const double threshold = std::atan(friction);
+  for (double angle : {0.2, 0.9, 0.999999, 1.000001, 1.1, 2.0}) {
+    UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), friction}},
+                              still(300, 0.004));
+    const double tilt = angle * threshold;
+    // Displacement under the weight; the pole alone may touch.
+    const Eigen::Vector3d weight = 1e-7 * Eigen::Vector3d(std::sin(tilt), 0, -std::cos(tilt));
+    const Eigen::Vector3d moved = own.block(0, 0) * weight;
+    RigidPose pose = plate(1);
+    contact.step(&pose);
+    pose = plate(1 + moved.z(), moved.x());
+    pose.position.y() = moved.y();
+    const ContactCertificate certificate = contact.step(&pose);
+    ASSERT_EQ(certificate.contactCount, 1);
+    const Eigen::Vector3d force = -contact.wrench(0).force;
+    ContactStatus status = ContactStatus::Open;
+    for (int i = 0; i < contact.watchedCount(); ++i)
+      if (contact.watched(i).vertex == pole) status = contact.watched(i).status;
+    EXPECT_EQ(status, angle < 1 ? ContactStatus::Stick : ContactStatus::Slip) << angle;
+    if (angle < 1) {
+      EXPECT_LE((force - weight).norm(), 1e-8 * weight.norm());
+    } else {
+      EXPECT_NEAR(force.head<2>().norm(), -friction * force.z(), 1e-8 * force.norm());
+    }
+  }
+}
+
+TEST(UnilateralContact, FrictionTakesEnergyOnEveryClosedPath) {
+  const TouchedBody body = touchedSphere(3, true);
+  for (double friction : {0.0, 0.3}) {
+    UnilateralContact contact(body.greens, body.mesh, ball(0.3, friction), still(300));
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), before;
+    double work = 0, largest = 0;
+    constexpr int steps = 400;
+    for (int tick = 0; tick <= steps; ++tick) {
+      const double turn = 2 * kPi * tick / steps;
+      const Eigen::Vector3d offset = 0.2 * Eigen::Vector3d(std::sin(turn), 1 - std::cos(turn), 0);
+      const double depth = 0.03 * (1 - std::cos(turn)) / 2;
+      const Eigen::Vector3d centre =
+          (1.3 - depth) * (Eigen::Vector3d::UnitZ() + offset).normalized();
+      const RigidPose pose = at(centre.x(), centre.y(), centre.z());
+      contact.step(&pose);
+      const Eigen::Vector3d now = contact.wrench(0).force;
+      if (tick > 0) work -= (now + force).dot(centre - before) / 2;  // by the hand
+      force = now;
+      before = centre;
+      largest = std::max(largest, now.norm());
+    }
+    EXPECT_LE(force.norm(), 1e-12);  // it ends as it began
+    // Without friction the gaps' energy is the whole: what is left is the trapezium rule's.
+    if (friction == 0) {
+      EXPECT_NEAR(work, 0, 2e-3 * largest * 0.03);
+    } else {
+      EXPECT_GE(work, 0.1 * friction * largest * 0.03);
+    }
+  }
+}
+
+TEST(UnilateralContact, NoiseDoesNotMakeContactsChatter) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContactSettings settings;
+  UnilateralContact contact(body.greens, body.mesh, ball(0.3, 0.3), settings);
+  RigidPose pose = at(0, 0, 1.28);
+  contact.step(&pose);
+  const long before = contact.transitions();
+  unsigned state = 1;
+  double largestJump = 0;
+  Eigen::Vector3d last = contact.wrench(0).force;
+  for (int tick = 0; tick < 200; ++tick) {
+    state = state * 1664525u + 1013904223u;
+    pose.position.z() = 1.28 + 1e-4 * ((state >> 8) / 16777216.0 - 0.5);  // 1e-4 of the radius
+    EXPECT_FALSE(contact.step(&pose).budgetCut);
+    largestJump = std::max(largestJump, (contact.wrench(0).force - last).norm());
+    last = contact.wrench(0).force;
+  }
+  EXPECT_EQ(contact.transitions(), before);
+  EXPECT_LE(largestJump, 10 * 1e-4);  // stiffness of the contact (about 2) times the noise, at most
+}
+
+TEST(UnilateralContact, ForceIsContinuousWhileVerticesComeAndGo) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContact contact(body.greens, body.mesh, ball(0.3, 0.2), {});
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  double largestChange = 0;
+  constexpr double step = 1e-3;
+  for (int tick = 0; tick < 1500; ++tick) {
+    const double angle = step * tick / 1.28;
+    const RigidPose pose = at(1.28 * std::sin(angle), 0, 1.28 * std::cos(angle));
+    EXPECT_FALSE(contact.step(&pose).failed);
+    const Eigen::Vector3d force = contact.wrench(0).force;
+    if (tick > 0) largestChange = std::max(largestChange, (force - last).norm());
+    last = force;
+  }
+  EXPECT_GT(contact.transitions(), 40);
+  EXPECT_GT(last.norm(), 1e-3);
+  // At most what the stiffest motion, straight in with all vertices under the ball, would change.
+  EXPECT_LE(largestChange, step * 4 * kModulus * 0.3);
+}
+
+TEST(UnilateralContact, ABoxOfTrianglesPressesAsThePlaneOfItsFace) {
+  const TouchedBody body = touchedSphere(3, true);
+  const auto tool = box({2, 2, 2}, {3, 3, 3}).moved({-1, -1, 0}).mesh();
+  UnilateralContact byMesh(body.greens, body.mesh, {{std::make_shared<MeshShape>(tool), 0.3}},
+                           still(300));
+  UnilateralContact byPlane(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}},
+                            still(300));
+  for (double height : {0.99, 0.95, 0.92}) {
+    const RigidPose meshPose = at(0.01, 0, height), planePose = plate(height, 0.01);
+    EXPECT_LE(byMesh.step(&meshPose).residual, 1e-9);
+    EXPECT_LE(byPlane.step(&planePose).residual, 1e-9);
+    const Wrench a = byMesh.wrench(0), b = byPlane.wrench(0);
+    EXPECT_LE((a.force - b.force).norm(), 1e-8 * b.force.norm());
+    EXPECT_LE((a.torque - b.torque).norm(), 1e-8 * b.force.norm());
+  }
+}
+
+TEST(UnilateralContact, ACapsuleWithoutLengthIsABall) {
+  const TouchedBody body = touchedSphere(2, true);
+  UnilateralContact byBall(body.greens, body.mesh, ball(0.3), still(100));
+  const Eigen::Vector3d centre(0.1, 0.2, -0.1);
+  UnilateralContact byCapsule(body.greens, body.mesh,
+                              {{std::make_shared<CapsuleShape>(centre, centre, 0.3), 0}},
+                              still(100));
+  const RigidPose one = at(0, 0, 1.2), other = at(-0.1, -0.2, 1.3);
+  byBall.step(&one);
+  byCapsule.step(&other);
+  EXPECT_LE((byBall.wrench(0).force - byCapsule.wrench(0).force).norm(), 1e-12);
+  const Eigen::Vector3d force = byBall.wrench(0).force;
+  EXPECT_LE((byCapsule.wrench(0).torque - byBall.wrench(0).torque - centre.cross(force)).norm(),
+            1e-12);
+}
+
+TEST(UnilateralContact, TwoToolsFeelEachOtherThroughTheBody) {
+  const TouchedBody body = touchedSphere(3, true);
+  std::vector<Obstacle> both = ball(0.3);
+  both.push_back(both[0]);
+  UnilateralContact contact(body.greens, body.mesh, both, still(300));
+  const double apart = 0.7;
+  RigidPose poses[2] = {at(1.28 * std::sin(apart), 0, 1.28 * std::cos(apart)), at(9, 9, 9)};
+  contact.step(poses);
+  const double alone = contact.wrench(0).force.norm();
+  EXPECT_EQ(contact.wrench(1).force.norm(), 0);
+  poses[1] = at(-1.28 * std::sin(apart), 0, 1.28 * std::cos(apart));
+  contact.step(poses);
+  EXPECT_GT(contact.wrench(1).force.norm(), 0);
+  // Pressed from the other side the body yields towards the first.
+  EXPECT_GT(contact.wrench(0).force.norm(), 1.01 * alone);
+}
+
+/// Two equal polished spheres, the second upside down on the first.
+Obstacle polishedObstacle() {
+  const TouchedBody& body = polishedSphere();
+  return {std::make_shared<MeshShape>(body.mesh), 0, body.greens, body.mesh};
+}
+
+TEST(UnilateralContact, TwoElasticSpheresPressAsHertzFound) {
+  const TouchedBody& body = polishedSphere();
+  UnilateralContact contact(body.greens, body.mesh, {polishedObstacle()}, still(300, 0.004));
+  RigidPose pose;
+  pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
+  std::vector<double> forces;
+  for (double depth : {0.0005, 0.001}) {
+    pose.position = {0, 0, 2 - depth};
+    EXPECT_LE(contact.step(&pose).residual, 1e-9);
+    forces.push_back(contact.wrench(0).force.z());
+    // Both bodies yield, E* is half of one's, and both are curved. Their size matters by a / R.
+    const double hertz = 4.0 / 3 * (kModulus / 2) * std::sqrt(0.5) * std::pow(depth, 1.5);
+    EXPECT_NEAR(forces.back() / hertz, 1, 0.05);
+  }
+  EXPECT_NEAR(std::log(forces[1] / forces[0]) / std::log(2), 1.5, 0.075);
+}
+
+TEST(UnilateralContact, AVeryStiffElasticObstacleIsARigidOne) {
+  const TouchedBody body = touchedSphere(3, true);
+  const auto shape = std::make_shared<MeshShape>(body.mesh);
+  UnilateralContact rigid(body.greens, body.mesh, {{shape, 0.3}}, still(300));
+  UnilateralContact stiff(body.greens, body.mesh,
+                          {{shape, 0.3, body.greens->withYoungsModulus(2.5e7), body.mesh}},
+                          still(300));
+  for (double depth : {0.01, 0.03}) {
+    RigidPose pose = at(depth, 0, 2 - depth);
+    pose.orientation =
+        Eigen::Quaterniond(Eigen::AngleAxisd(3, Eigen::Vector3d(1, 0.2, 0).normalized()));
+    EXPECT_LE(rigid.step(&pose).residual, 1e-9);
+    EXPECT_LE(stiff.step(&pose).residual, 1e-9);
+    EXPECT_LE((rigid.wrench(0).force - stiff.wrench(0).force).norm(),
+              1e-4 * rigid.wrench(0).force.norm());
+  }
+}
+
+TEST(UnilateralContact, LetsGoWithoutAForceLeft) {
+  const TouchedBody body = touchedSphere(2, true);
+  UnilateralContact contact(body.greens, body.mesh, ball(0.3, 0.5), {});
+  RigidPose pose = at(0, 0, 1.2);
+  contact.step(&pose);
+  EXPECT_GT(contact.wrench(0).force.z(), 0);
+  pose = at(0, 0, 1.31);
+  EXPECT_EQ(contact.step(&pose).contactCount, 0);
+  EXPECT_EQ(contact.wrench(0).force.norm(), 0);
+  pose = at(0, 0, 5);
+  for (int tick = 0; tick < 2; ++tick) contact.step(&pose);
+  EXPECT_EQ(contact.watchedCount(), 0);
+}
+
+TEST(UnilateralContact, ChangesAtRunTimeNeedNoComputation) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContact contact(body.greens, body.mesh, ball(0.3, 0.2), still(200));
+  RigidPose pose = at(0, 0, 1.28);
+  contact.step(&pose);
+  const Eigen::Vector3d before = contact.wrench(0).force;
+  contact.setStiffnessScale(3);
+  EXPECT_LE((contact.wrench(0).force - 3 * before).norm(), 1e-14);
+  contact.setStiffnessScale(1);
+  contact.setFriction(0, 0);
+  contact.step(&pose);
+  UnilateralContact smooth(body.greens, body.mesh, ball(0.3), still(200));
+  smooth.step(&pose);
+  EXPECT_LE((contact.wrench(0).force - smooth.wrench(0).force).norm(), 1e-7 * before.norm());
+  EXPECT_GT((smooth.wrench(0).force - before).norm(), 1e-4 * before.norm());
+  EXPECT_THROW(contact.setFriction(0, -1), std::invalid_argument);
+  EXPECT_THROW(contact.setStiffnessScale(0), std::invalid_argument);
+}
+
+TEST(UnilateralContact, FixedVerticesYieldByTheRigidStiffness) {
+  const TouchedBody body = touchedSphere(2, true);  // fixed below -0.6
+  UnilateralContactSettings settings = still(100);
+  settings.rigidStiffness = 50;
+  UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0}},
+                            settings);
+  const RigidPose pose = at(0, 0, -0.95);
+  contact.step(&pose);
+  double force = 0;
+  for (int v = 0; v < body.mesh->vertexCount(); ++v)
+    force += 50 * std::max(0.0, -0.95 - body.mesh->points()(2, v));
+  EXPECT_NEAR(contact.wrench(0).force.z(), -force, 1e-6 * force);
+}
+
+TEST(UnilateralContact, StepsDoNotAllocate) {
+  ASSERT_TRUE(allocationsAreCounted());
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContactSettings settings;
+  settings.solver.largestUpdates = 12;
+  std::vector<Obstacle> obstacles = ball(0.3, 0.3);
+  obstacles.push_back({std::make_shared<MeshShape>(icosphere(1).scaled(0.3).mesh()), 0.3});
+  obstacles.push_back({std::make_shared<MeshShape>(body.mesh), 0.3, body.greens, body.mesh});
+  UnilateralContact contact(body.greens, body.mesh, obstacles, settings);
+  const long before = allocationCount();
+  for (int tick = 0; tick < 60; ++tick) {
+    const double angle = 0.01 * tick;
+    RigidPose poses[3] = {at(1.28 * std::sin(angle), 0, 1.28 * std::cos(angle)),
+                          at(0, -1.28 * std::cos(angle), 1.28 * std::sin(angle)),
+                          at(-1.98 + 0.01 * angle, 0, 0)};
+    poses[2].orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
+    contact.step(poses);
+  }
+  EXPECT_EQ(allocationCount(), before);
+  EXPECT_GT(contact.wrench(0).force.norm(), 0);
+  EXPECT_GT(contact.wrench(1).force.norm(), 0);
+  EXPECT_GT(contact.wrench(2).force.norm(), 0);
+}
+
+TEST(UnilateralContact, ReportsWhatItHasNoRoomFor) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContactSettings settings;
+  settings.capacity = 5;
+  UnilateralContact contact(body.greens, body.mesh, ball(0.5), settings);
+  const RigidPose pose = at(0, 0, 1.4);
+  EXPECT_TRUE(contact.step(&pose).budgetCut);
+  EXPECT_TRUE(contact.overflowed());
+}
+
+TEST(UnilateralContact, RefusesWhatHasNoSense) {
+  const TouchedBody body = touchedSphere(2, true);
+  const auto make = [&](std::vector<Obstacle> obstacles, UnilateralContactSettings settings = {}) {
+    return UnilateralContact(body.greens, body.mesh, std::move(obstacles), settings);
+  };
+  EXPECT_THROW(make({}), std::invalid_argument);
+  EXPECT_THROW(make({{nullptr, 0}}), std::invalid_argument);
+  EXPECT_THROW(make(ball(0.3, -0.1)), std::invalid_argument);
+  EXPECT_THROW(make(ball(0.3, NAN)), std::invalid_argument);
+  EXPECT_THROW(make({{std::make_shared<SphereShape>(1), 0, body.greens, nullptr}}),
+               std::invalid_argument);
+  EXPECT_THROW(UnilateralContact(body.greens, icosphere(1).mesh(), ball(1)), std::invalid_argument);
+  UnilateralContactSettings settings;
+  settings.margin = -1;
+  EXPECT_THROW(make(ball(1), settings), std::invalid_argument);
+  settings = {};
+  settings.capacity = 0;
+  EXPECT_THROW(make(ball(1), settings), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::test
