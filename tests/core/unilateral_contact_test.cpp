@@ -390,6 +390,7 @@ TEST(UnilateralContact, StepsDoNotAllocate) {
   obstacles.push_back({std::make_shared<MeshShape>(icosphere(1).scaled(0.3).mesh()), 0.3});
   obstacles.push_back({std::make_shared<MeshShape>(body.mesh), 0.3, body.greens, body.mesh});
   UnilateralContact contact(body.greens, body.mesh, obstacles, settings);
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
   const long before = allocationCount();
   for (int tick = 0; tick < 60; ++tick) {
     const double angle = 0.01 * tick;
@@ -398,11 +399,10 @@ TEST(UnilateralContact, StepsDoNotAllocate) {
                           at(-1.98 + 0.01 * angle, 0, 0)};
     poses[2].orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     contact.step(poses);
+    for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], contact.wrench(k).force.norm());
   }
   EXPECT_EQ(allocationCount(), before);
-  EXPECT_GT(contact.wrench(0).force.norm(), 0);
-  EXPECT_GT(contact.wrench(1).force.norm(), 0);
-  EXPECT_GT(contact.wrench(2).force.norm(), 0);
+  EXPECT_GT(largest.minCoeff(), 0);  // all three have touched
 }
 
 TEST(UnilateralContact, ReportsWhatItHasNoRoomFor) {

@@ -154,11 +154,20 @@ void ContactCompliance::remove(int contact) noexcept {
 void ContactCompliance::multiply(const double* forces, double* out) const noexcept {
   std::fill_n(out, stride_, 0);
   const double* columns[kColumnGroup];
-  for (int first = 0; first < 3 * count_; first += kColumnGroup) {
-    const int size = std::min(kColumnGroup, 3 * count_ - first);
-    for (int k = 0; k < size; ++k) columns[k] = column(first + k);
-    addWeightedColumns(columns, forces + first, size, padded(3 * count_), out);
+  double weights[kColumnGroup];
+  int group = 0;
+  for (int contact = 0; contact < count_; ++contact) {
+    const double* force = forces + 3 * contact;
+    if (force[0] == 0 && force[1] == 0 && force[2] == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      columns[group] = column(3 * contact + k);
+      weights[group++] = force[k];
+    }
+    if (group < kColumnGroup) continue;
+    addWeightedColumns(columns, weights, group, padded(3 * count_), out);
+    group = 0;
   }
+  addWeightedColumns(columns, weights, group, padded(3 * count_), out);
 }
 
 void ContactCompliance::addColumn(int contact, const Eigen::Vector3d& force,

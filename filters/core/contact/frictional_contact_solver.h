@@ -4,10 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "contact/contact_certificate.h"
 #include "contact/contact_compliance.h"
+#include "contact/contact_newton_inverse.h"
 
 namespace palpate {
 
@@ -59,8 +61,8 @@ class FrictionalContactSolver {
   FrictionalContactSolver(std::vector<std::shared_ptr<const GreensFunctions>> bodies,
                           double rigidStiffness, int capacity, ContactSolverSettings settings = {});
 
-  const ContactCompliance& compliance() const { return compliance_; }
-  int count() const { return compliance_.count(); }
+  const ContactCompliance& compliance() const { return *compliance_; }
+  int count() const { return compliance_->count(); }
 
   /// Appends an open contact; its conditions are to be set before the next solve.
   /// @return false as ContactCompliance::add.
@@ -71,9 +73,9 @@ class FrictionalContactSolver {
 
   /// As ContactCompliance's. Newton's matrix follows as its rows are refreshed.
   void turn(int body, const Eigen::Matrix3d& orientation) noexcept {
-    compliance_.turn(body, orientation);
+    compliance_->turn(body, orientation);
   }
-  void move(int contact, const ContactSite& site) noexcept { compliance_.move(contact, site); }
+  void move(int contact, const ContactSite& site) noexcept { compliance_->move(contact, site); }
 
   ContactConditions& conditions(int contact) { return conditions_[contact]; }
 
@@ -90,41 +92,29 @@ class FrictionalContactSolver {
   /// W f: the displacement of a contact under all forces of the last solve or update, m.
   Eigen::Vector3d displacement(int contact) const { return displacement_.segment<3>(3 * contact); }
   ContactStatus status(int contact) const { return status_[contact]; }
-  /// Updates of the inverse since the constructor, and factorisations afresh.
-  long updates() const { return updates_; }
-  long factorisations() const { return factorisations_; }
+  /// The inverse that is kept, for its counts.
+  const ContactNewtonInverse& inverse() const { return inverse_; }
 
  private:
   struct Projection;
   Projection project(int contact) const noexcept;
   double evaluate() noexcept;
   double clipped() noexcept;
-  int staleCount() const noexcept;
   bool isStale(int contact) const noexcept;
   int renew(int mostUpdates) noexcept;
-  void replaceRows(int contact, const Eigen::Matrix3d& share) noexcept;
-  void setRows(int contact, const Eigen::Matrix3d& share, double* rows) const noexcept;
-  bool factor() noexcept;
   void newtonStep() noexcept;
   void sweep() noexcept;
   double largestForce() const noexcept;
-  double* column(int k) { return inverse_.data() + std::size_t(k) * stride_; }
 
-  ContactCompliance compliance_;
+  std::unique_ptr<ContactCompliance> compliance_;  ///< stays where it is when this moves
   ContactSolverSettings settings_;
-  int stride_;
+  ContactNewtonInverse inverse_;
   std::vector<ContactConditions> conditions_;
   std::vector<ContactStatus> status_;
-  std::vector<Eigen::Matrix3d> share_;   ///< D, the derivative of P, that the inverse is of
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
-  std::vector<double> scale_;            ///< r, N/m
-  Eigen::VectorXd forces_, displacement_, residual_, best_, step_;
-  AlignedBuffer<double> inverse_, factor_;
-  AlignedBuffer<double> left_, right_, scratch_;  ///< stride by 3
-  std::vector<int> pivots_;
+  Eigen::VectorXd forces_, displacement_, residual_, best_;
   int cursor_ = 0;          ///< contact whose rows were replaced last
   bool unsettled_ = false;  ///< whether the last solve was cut
-  long updates_ = 0, factorisations_ = 0;
 };
 
 }  // namespace palpate
