@@ -68,6 +68,7 @@ class UnilateralContact {
   /// What the surface does to an obstacle, about its position. N, N m.
   Wrench wrench(int obstacle) const noexcept;
 
+  int capacity() const { return solver_.compliance().capacity(); }
   /// Vertices watched, numbered in no order that lasts beyond a step.
   int watchedCount() const { return solver_.count(); }
   struct Watched {
@@ -78,7 +79,11 @@ class UnilateralContact {
     double gap;                    ///< to the obstacle as it is after the step, m
   };
   Watched watched(int contact) const noexcept;
-  /// Forces on the nodes of the second body under a watched vertex, if the obstacle is elastic.
+  /// Where a watched vertex lies undeformed, m.
+  Eigen::Vector3d restPlace(int contact) const noexcept {
+    return mesh_->points().col(anchors_[contact].vertex);
+  }
+  /// The nodes that its force acts on, and by what share.
   const ContactSite& site(int contact) const { return solver_.compliance().site(contact); }
 
   /// Coulomb's mu of an obstacle, from the next step on.

@@ -28,14 +28,15 @@ struct ToolContact {
 };
 
 /// A state of contact from which the whole deformation follows, for a slower thread: tools and the
-/// forces on nodes. Its vectors have their final size from `TouchModel::makeSnapshot` on, so that
-/// filling one allocates nothing.
+/// forces on nodes (a node may occur more than once). Its vectors have their final size from
+/// `TouchModel::makeSnapshot` on, so that filling one allocates nothing.
 struct ContactSnapshot {
   std::uint64_t tick = 0;
   std::vector<ToolContact> tools;
   ContactCertificate certificate;
   int loadedCount = 0;                 ///< of the entries below that hold
-  std::vector<int> loadedNodes;        ///< nodes of the surface under a force
+  std::vector<int> loadedBodies;       ///< which elastic body: 0, or another that meets the first
+  std::vector<int> loadedNodes;        ///< its node
   std::vector<Eigen::Vector3d> loads;  ///< on the body, N
 };
 

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/tool_touch.h"
+
+#include <stdexcept>
+
+#include "contact/mesh_shape.h"
+
+namespace palpate {
+namespace {
+
+std::vector<Obstacle> obstaclesOf(const std::vector<std::shared_ptr<const TouchTool>>& tools,
+                                  double friction, const std::vector<ElasticPartner>& partners) {
+  std::vector<Obstacle> obstacles;
+  for (const auto& tool : tools) {
+    if (!tool) throw std::invalid_argument("a device holds no tool");
+    for (int part = 0; part < tool->partCount(); ++part)
+      obstacles.push_back({tool->shape(part), friction});
+  }
+  for (const ElasticPartner& partner : partners) {
+    if (!partner.mesh || !partner.greens)
+      throw std::invalid_argument("an elastic body in the scene has no surface or no response");
+    obstacles.push_back({std::make_shared<MeshShape>(partner.mesh), partner.friction,
+                         partner.greens, partner.mesh});
+  }
+  return obstacles;
+}
+
+}  // namespace
+
+RigidTouchTool::RigidTouchTool(std::shared_ptr<const RigidShape> shape) : shape_(std::move(shape)) {
+  if (!shape_) throw std::invalid_argument("a tool has no shape");
+}
+
+ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
+                     std::shared_ptr<const SurfaceMesh> mesh,
+                     std::vector<std::shared_ptr<const TouchTool>> tools, double friction,
+                     const UnilateralContactSettings& settings,
+                     const std::vector<ElasticPartner>& partners)
+    : contact_(std::move(greens), std::move(mesh), obstaclesOf(tools, friction, partners),
+               settings) {
+  if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
+  for (const auto& tool : tools) {
+    tools_.push_back({tool, static_cast<int>(poses_.size()), {}});
+    poses_.resize(poses_.size() + tool->partCount());
+  }
+  for (const ElasticPartner& partner : partners) poses_.push_back(partner.pose);
+}
+
+ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noexcept {
+  for (int t = 0; t < toolCount(); ++t) {
+    tools_[t].pose = poses[t];
+    tools_[t].tool->place(poses[t], poses_.data() + tools_[t].firstPart);
+  }
+  certificate_ = contact_.step(poses_.data());
+  for (int t = 0; t < toolCount(); ++t) {
+    Wrench& sum = wrenches[t] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (int part = 0; part < tools_[t].tool->partCount(); ++part) {
+      const Wrench wrench = partWrench(t, part);
+      const Eigen::Vector3d lever = poses_[tools_[t].firstPart + part].position - poses[t].position;
+      sum.force += wrench.force;
+      sum.torque += wrench.torque + lever.cross(wrench.force);
+    }
+  }
+  return certificate_;
+}
+
+Wrench ToolTouch::partWrench(int tool, int part) const noexcept {
+  return contact_.wrench(tools_[tool].firstPart + part);
+}
+
+void ToolTouch::reset() noexcept {
+  contact_.reset();
+  certificate_ = {};
+}
+
+void ToolTouch::setFriction(double friction) noexcept {
+  for (const Held& held : tools_)
+    for (int part = 0; part < held.tool->partCount(); ++part)
+      contact_.setFriction(held.firstPart + part, friction);
+}
+
+void ToolTouch::setStiffnessScale(double scale) noexcept {
+  contact_.setStiffnessScale(scale);
+}
+
+ContactSnapshot ToolTouch::makeSnapshot() const {
+  ContactSnapshot snapshot;
+  snapshot.tools.resize(tools_.size());
+  const std::size_t loads = 4 * std::size_t(contact_.capacity());
+  snapshot.loadedBodies.resize(loads);
+  snapshot.loadedNodes.resize(loads);
+  snapshot.loads.resize(loads, Eigen::Vector3d::Zero());
+  return snapshot;
+}
+
+void ToolTouch::fill(ContactSnapshot& snapshot) const noexcept {
+  snapshot.certificate = certificate_;
+  for (int t = 0; t < toolCount(); ++t) {
+    ToolContact& seen = snapshot.tools[t] = {};
+    seen.pose = tools_[t].pose;
+    seen.hapticPoint = tools_[t].pose.position;
+  }
+  std::size_t loads = 0;
+  for (int i = 0; i < contact_.watchedCount(); ++i) {
+    const UnilateralContact::Watched watched = contact_.watched(i);
+    if (watched.status == ContactStatus::Open) continue;
+    const ContactSite& site = contact_.site(i);
+    for (int p = 0; p < site.count; ++p, ++loads) {
+      snapshot.loadedBodies[loads] = site.parts[p].body;
+      snapshot.loadedNodes[loads] = site.parts[p].node;
+      snapshot.loads[loads] = site.parts[p].weight * watched.force;
+    }
+  }
+  snapshot.loadedCount = static_cast<int>(loads);
+  describe(snapshot);
+}
+
+/// What each tool feels, and the middle of its contact, weighted with force.
+void ToolTouch::describe(ContactSnapshot& snapshot) const noexcept {
+  for (int t = 0; t < toolCount(); ++t) {
+    ToolContact& seen = snapshot.tools[t];
+    const int first = tools_[t].firstPart, last = first + tools_[t].tool->partCount();
+    double weight = 0;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (int i = 0; i < contact_.watchedCount(); ++i) {
+      const UnilateralContact::Watched watched = contact_.watched(i);
+      if (watched.obstacle < first || watched.obstacle >= last ||
+          watched.status == ContactStatus::Open)
+        continue;
+      const double force = watched.force.norm();
+      seen.sliding = seen.sliding || watched.status == ContactStatus::Slip;
+      middle += force * contact_.restPlace(i);
+      weight += force;
+      seen.wrench.force -= watched.force;
+      seen.wrench.torque -=
+          (contact_.restPlace(i) + watched.displacement - seen.hapticPoint).cross(watched.force);
+    }
+    seen.touching = weight > 0;
+    if (seen.touching) seen.staticPoint = middle / weight;
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/unilateral_contact.h"
+#include "haptics/touch_model.h"
+#include "haptics/touch_tool.h"
+
+namespace palpate {
+
+/// A second elastic body in the scene, which stays where it is but for its deformation.
+struct ElasticPartner {
+  std::shared_ptr<const GreensFunctions> greens;
+  std::shared_ptr<const SurfaceMesh> mesh;
+  RigidPose pose;
+  double friction = 0;
+};
+
+/// Tools with a shape of their own that touch one elastic surface by UnilateralContact, all coupled
+/// through it, with force and torque for each.
+class ToolTouch final : public TouchModel {
+ public:
+  /// @param friction  Coulomb's mu between the surface and all tools.
+  /// @param partners  other bodies that the surface meets; tools do not touch them.
+  /// @throws std::invalid_argument as UnilateralContact, and without a tool.
+  ToolTouch(std::shared_ptr<const GreensFunctions> greens, std::shared_ptr<const SurfaceMesh> mesh,
+            std::vector<std::shared_ptr<const TouchTool>> tools, double friction,
+            const UnilateralContactSettings& settings = {},
+            const std::vector<ElasticPartner>& partners = {});
+
+  int toolCount() const override { return static_cast<int>(tools_.size()); }
+  ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept override;
+  void reset() noexcept override;
+  ContactSnapshot makeSnapshot() const override;
+  void fill(ContactSnapshot& snapshot) const noexcept override;
+
+  /// Coulomb's mu of all tools, from the next step on.
+  /// @param friction  >= 0.
+  void setFriction(double friction) noexcept;
+  /// @param scale  of all forces, positive.
+  void setStiffnessScale(double scale) noexcept;
+
+  const UnilateralContact& contact() const noexcept { return contact_; }
+  /// What the surface does to one part of a tool, about the part's position.
+  Wrench partWrench(int tool, int part) const noexcept;
+
+ private:
+  void describe(ContactSnapshot& snapshot) const noexcept;
+  struct Held {
+    std::shared_ptr<const TouchTool> tool;
+    int firstPart;  ///< among the obstacles
+    ToolPose pose;
+  };
+  std::vector<Held> tools_;
+  std::vector<RigidPose> poses_;  ///< of all obstacles
+  UnilateralContact contact_;
+  ContactCertificate certificate_;
+};
+
+}  // namespace palpate
