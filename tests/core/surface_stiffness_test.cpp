@@ -215,6 +215,32 @@ TEST_F(SurfaceStiffnessOfASphere, ScalesWithYoungsModulus) {
   }
 }
 
+TEST_F(SurfaceStiffnessOfASphere, ChangesItsRigidStiffnessAndYoungsModulusAsIfMadeWithThem) {
+  const double radius = 2 * reciprocal_->mesh->meanEdgeLength();
+  const auto expectSame = [](const SurfaceStiffness& a, const SurfaceStiffness& b) {
+    EXPECT_NEAR(a.rigidStiffness() / b.rigidStiffness(), 1, 1e-14);
+    for (int v = 0; v < a.mesh().vertexCount(); ++v) {
+      EXPECT_LE(relativeDifference(a.elastic(v), b.elastic(v)), kRounding);
+      EXPECT_NEAR(a.hapticRatio(v), b.hapticRatio(v), kRounding);
+      EXPECT_EQ(a.mask(v).nodes, b.mask(v).nodes);
+    }
+  };
+  for (double rigid : {0.0, 0.5}) {
+    const SurfaceStiffness one = stiffnessOf(*reciprocal_, 2, 3);
+    const auto changed = one.withRigidStiffness(rigid);
+    expectSame(*changed, stiffnessOf(*reciprocal_, 2, rigid));
+    const auto greens = reciprocal_->greens->withYoungsModulus(7);
+    const auto stiffer = changed->withYoungsModulus(7);
+    expectSame(*stiffer,
+               SurfaceStiffness(greens, reciprocal_->mesh, MaskShape::Linear, radius, rigid));
+    EXPECT_EQ(stiffer->greens().info().material.youngsModulus(), 7);
+    // And back: nothing is lost on the way.
+    expectSame(*stiffer->withYoungsModulus(2.5)->withRigidStiffness(3), one);
+  }
+  EXPECT_TRUE(isRefused([&] { stiffnessOf(*reciprocal_, 2).withRigidStiffness(-1); },
+                        "the rigid stiffness must be at least 0 and finite, not -1"));
+}
+
 TEST(SurfaceStiffness, MasksLevelTheNoiseOfAnIrregularMesh) {
   // A spherical hole in infinite space has the same stiffness everywhere but for its mesh.
   // NUMERICS.md section 5: 7.1 % of variation for single vertices, at most 1.5 % (8 % from peak to

@@ -18,6 +18,12 @@ namespace {
 constexpr double kLeastShare = 0.5;    ///< of M in the served compliance
 constexpr double kFarthestAstray = 1;  ///< |B K - 1|, of a displacement that is asked for
 
+void requireRigidStiffness(double rigidStiffness) {
+  if (!(rigidStiffness >= 0) || !std::isfinite(rigidStiffness))
+    throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
+                                std::to_string(rigidStiffness));
+}
+
 Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
   return (matrix + matrix.transpose()) / 2;
 }
@@ -103,10 +109,8 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
                                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape,
                                    double radius, double rigidStiffness,
                                    const ProgressCallback& callback)
-    : greens_(std::move(greens)), mesh_(std::move(mesh)), rigidStiffness_(rigidStiffness) {
-  if (!(rigidStiffness >= 0) || !std::isfinite(rigidStiffness))
-    throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
-                                std::to_string(rigidStiffness));
+    : greens_(std::move(greens)), mesh_(std::move(mesh)) {
+  requireRigidStiffness(rigidStiffness);
   if (greens_->nodeCount() != mesh_->vertexCount())
     throw std::invalid_argument("the Green's functions have " +
                                 std::to_string(greens_->nodeCount()) + " nodes, the surface " +
@@ -115,40 +119,66 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   const Progress progress(callback);
   const PressureMasks masks(*mesh_, greens_->info().conditions, shape, radius);
   elastic_.assign(n, Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  masks_.resize(n);
+  std::vector<VertexMask> vertexMasks(n);
   hapticRatio_.assign(n, 1);
   asymmetry_.assign(n, 0);
   limited_.assign(n, false);
-  std::vector<int> served;
-  double largest = 0;
+  bool isServed = false;
   for (int v = 0; v < n; ++v) {
     if (v % 64 == 0) progress.report(double(v) / n, "stiffness");
     if (greens_->isFixed(v)) continue;
-    masks_[v] = masks.at(v);
+    vertexMasks[v] = masks.at(v);
     try {
-      const VertexStiffness result = maskedVertexStiffness(*greens_, v, masks_[v]);
-      served.push_back(v);
+      const VertexStiffness result = maskedVertexStiffness(*greens_, v, vertexMasks[v]);
       elastic_[v] = result.stiffness;
       asymmetry_[v] = result.asymmetry;
       limited_[v] = result.limited;
-      largest = std::max(largest, result.stiffness.norm());
+      isServed = true;
     } catch (const std::exception&) {
       // requireServed says why to whoever asks for it.
     }
   }
+  masks_ = std::make_shared<const std::vector<VertexMask>>(std::move(vertexMasks));
   const std::vector<int> free = greens_->info().conditions.freeNodes();
-  if (served.empty() && !free.empty()) requireServed(free.back());
-  // |K^R|_F = sqrt(3) k_Rigid.
-  if (rigidStiffness_ == 0) rigidStiffness_ = largest / std::sqrt(3.0);
-  for (int v : greens_->info().conditions.fixedNodes())
-    elastic_[v] = rigidStiffness_ * Eigen::Matrix3d::Identity();
-  for (int v : served)
-    hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
+  if (!isServed && !free.empty()) requireServed(free.back());
+  setRigidStiffness(rigidStiffness);
   progress.report(1, "stiffness");
 }
 
+void SurfaceStiffness::setRigidStiffness(double rigidStiffness) {
+  givenRigidStiffness_ = rigidStiffness_ = rigidStiffness;
+  const std::vector<int> free = greens_->info().conditions.freeNodes();
+  // |K^R|_F = sqrt(3) k_Rigid. What is not served is NaN and never larger.
+  if (rigidStiffness == 0)
+    for (int v : free)
+      rigidStiffness_ = std::max(rigidStiffness_, elastic_[v].norm() / std::sqrt(3.0));
+  for (int v : greens_->info().conditions.fixedNodes())
+    elastic_[v] = rigidStiffness_ * Eigen::Matrix3d::Identity();
+  for (int v : free)
+    if (!elastic_[v].hasNaN())
+      hapticRatio_[v] = std::min(1.0, std::sqrt(3.0) * rigidStiffness_ / elastic_[v].norm());
+}
+
+std::shared_ptr<const SurfaceStiffness> SurfaceStiffness::withRigidStiffness(
+    double rigidStiffness) const {
+  requireRigidStiffness(rigidStiffness);
+  const auto changed = std::make_shared<SurfaceStiffness>(*this);
+  changed->setRigidStiffness(rigidStiffness);
+  return changed;
+}
+
+std::shared_ptr<const SurfaceStiffness> SurfaceStiffness::withYoungsModulus(
+    double youngsModulus) const {
+  const auto changed = std::make_shared<SurfaceStiffness>(*this);
+  changed->greens_ = greens_->withYoungsModulus(youngsModulus);
+  const double factor = youngsModulus / greens_->info().material.youngsModulus();
+  for (Eigen::Matrix3d& stiffness : changed->elastic_) stiffness *= factor;
+  changed->setRigidStiffness(givenRigidStiffness_);
+  return changed;
+}
+
 void SurfaceStiffness::requireServed(int vertex) const {
-  if (elastic_[vertex].hasNaN()) maskedVertexStiffness(*greens_, vertex, masks_[vertex]);
+  if (elastic_[vertex].hasNaN()) maskedVertexStiffness(*greens_, vertex, mask(vertex));
 }
 
 Eigen::Matrix3d SurfaceStiffness::elasticAt(int triangle,

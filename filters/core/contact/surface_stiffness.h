@@ -56,6 +56,15 @@ class SurfaceStiffness {
 
   const GreensFunctions& greens() const { return *greens_; }
   const SurfaceMesh& mesh() const { return *mesh_; }
+  const std::shared_ptr<const SurfaceMesh>& sharedMesh() const { return mesh_; }
+
+  /// The same under another rigid stiffness, as in the constructor. No stiffness is computed anew.
+  std::shared_ptr<const SurfaceStiffness> withRigidStiffness(double rigidStiffness) const;
+
+  /// The same body of another Young's modulus: its elastic stiffnesses, and the rigid one if that
+  /// is the stiffest elastic vertex's, are scaled. Nothing is computed anew.
+  /// @throws std::invalid_argument as Material.
+  std::shared_ptr<const SurfaceStiffness> withYoungsModulus(double youngsModulus) const;
 
   /// @throws as maskedVertexStiffness if the vertex has no stiffness.
   void requireServed(int vertex) const;
@@ -67,7 +76,7 @@ class SurfaceStiffness {
   /// K^H_i = eta_i K^E_i.
   Eigen::Matrix3d haptic(int vertex) const { return hapticRatio_[vertex] * elastic_[vertex]; }
   /// The mask of a vertex; empty where it is fixed.
-  const VertexMask& mask(int vertex) const { return masks_[vertex]; }
+  const VertexMask& mask(int vertex) const { return (*masks_)[vertex]; }
   /// Asymmetry of a vertex's compliance before symmetrising; 0 where fixed.
   double asymmetry(int vertex) const { return asymmetry_[vertex]; }
   /// Whether a vertex's stiffness is that of the mean under its mask in some direction.
@@ -81,13 +90,15 @@ class SurfaceStiffness {
   Eigen::Matrix3d hapticAt(int triangle, const Eigen::Vector3d& barycentric) const noexcept;
 
  private:
+  void setRigidStiffness(double rigidStiffness);
+
   std::shared_ptr<const GreensFunctions> greens_;
   std::shared_ptr<const SurfaceMesh> mesh_;
-  double rigidStiffness_;
+  double givenRigidStiffness_, rigidStiffness_;
   std::vector<Eigen::Matrix3d> elastic_;
   std::vector<double> hapticRatio_, asymmetry_;
   std::vector<bool> limited_;
-  std::vector<VertexMask> masks_;
+  std::shared_ptr<const std::vector<VertexMask>> masks_;
 };
 
 }  // namespace palpate

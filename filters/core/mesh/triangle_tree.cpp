@@ -24,8 +24,8 @@ double reach(const FirstCrossing& query, const Eigen::Vector3d& low, const Eigen
 
 struct NoQuery {};
 
-/// Takes a query down the tree, nearer boxes first (the traversal traits of CGAL's tree). CGAL's own
-/// queries would allocate: they return variants and look their first guess up in a second tree.
+/// Takes a query down the tree, nearer boxes first (the traversal traits of CGAL's tree). CGAL's
+/// own queries would look their first guess up in a second tree and compute in intervals.
 template <class Query>
 struct Descent {
   using Priority = double;

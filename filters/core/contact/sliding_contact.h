@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "contact/surface_stiffness.h"
+#include "mesh/surface_locator.h"
+#include "mesh/surface_walk.h"
+
+namespace palpate {
+
+/// What all contacts with one surface share.
+struct TouchedSurface {
+  explicit TouchedSurface(const std::shared_ptr<const SurfaceMesh>& mesh)
+      : locator(mesh), walk(mesh) {}
+  SurfaceLocator locator;
+  SurfaceWalk walk;
+};
+
+/// A probe's tip on an elastic surface: it pushes, sticks, slides and pulls ([JP01] sections 6.3 to
+/// 7 and fig. 8). The contact is found where the probe's way x^H enters the undeformed body and is
+/// tracked from there on in surface coordinates, x^C, face to face; the force on the body is that
+/// of the place, f = K^H(x^C) (x^H - x^C). All of it happens on the undeformed surface; its
+/// parametric image under f is the god object x^E (PointContact::push at `point()`).
+///
+/// Friction is Coulomb's, |f_t| <= mu f_n, about the vertices' interpolated normals (the triangle's
+/// where they vanish): within the cone x^C sticks, beyond it slips (coulombSlip, walked over the
+/// surface and repeated where normal and stiffness have changed on the way). With adhesion x^C
+/// sticks whatever the force. The contact ends when the probe is above the tangent plane and no
+/// longer within the cone.
+///
+/// Continuity. Whatever the mesh, the force served changes in a tick by at most
+///     kContinuity |K| (|step of x^H| + relaxation()) + |change of K| |u|,
+/// |K| the spectral norm of K^H where x^C starts (where it enters, if contact begins; where it
+/// ended, while a lost contact's force fades). If x^C stays, the force changes by |K| |step|; so
+/// x^C slides only as far as the force stays within the bound, and goes on in the next tick, by the
+/// relaxation's share even if the probe rests. Losing contact obeys the same bound: what is left of
+/// the force fades. A change of friction is not felt but through slipping; a change of stiffness is
+/// spread over kBlendTicks ticks.
+///
+/// Energy. A tick from (x^C_0, u_0, K_0) to (x^C_1, u_1, K_1) costs the hand the work
+///     (f_0 + f_1) / 2 . dx^H = [u^T K u / 2] + (f_0 + f_1) / 2 . dx^C - u_0^T dK u_1 / 2,
+/// and slipping costs f_t . dx^C >= 0. So a closed path gives back at most
+///     sum of |u_0^T dK u_1| / 2 + sum of f_n |n . dx^C|:
+/// half of what the stiffness varies by along the way times the depth squared, and what the
+/// interpolated normals n differ from the triangles' by. Both vanish with the size of the
+/// triangles' differences; a contact that sticks gives back nothing.
+///
+/// One thread advances it. Nothing here but construction allocates, locks or throws.
+class SlidingContact {
+ public:
+  static constexpr double kContinuity = 1;
+  static constexpr double kRelaxedEdges = 2e-3;  ///< relaxation() over the mean edge length
+  static constexpr int kBlendTicks = 100;
+
+  /// @param surface  of the stiffness's mesh.
+  /// @throws std::invalid_argument if it is of another one.
+  SlidingContact(std::shared_ptr<const SurfaceStiffness> stiffness,
+                 std::shared_ptr<const TouchedSurface> surface);
+
+  /// @param mu  >= 0.
+  void setFriction(double mu) noexcept { friction_ = mu; }
+  double friction() const noexcept { return friction_; }
+
+  /// Whether x^C sticks whatever the force, so that the probe pulls.
+  void setAdhesion(bool adheres) noexcept { adheres_ = adheres; }
+
+  /// Goes over to another stiffness of the same mesh. To be called when `isChanging()` is over
+  /// only. The one before is let go of when this returns; who must not free memory here keeps it
+  /// elsewhere.
+  void setStiffness(std::shared_ptr<const SurfaceStiffness> stiffness) noexcept;
+  bool isChanging() const noexcept { return blend_ < kBlendTicks; }
+  const SurfaceStiffness& stiffness() const noexcept { return *stiffness_; }
+
+  /// Moves the probe.
+  /// @param place  x^H, m, in the mesh's frame. One that is not finite ends the contact.
+  /// @return  the force on the body, N.
+  const Eigen::Vector3d& advance(const Eigen::Vector3d& place) noexcept;
+
+  /// Forgets the contact and what is left of its force. A probe that is within the body then
+  /// touches nothing until it has left it.
+  void reset() noexcept;
+
+  bool isTouching() const noexcept { return state_ == State::Touching; }
+  /// x^C; of the last contact while there is none.
+  const SurfacePoint& point() const noexcept { return point_; }
+  const Eigen::Vector3d& staticPoint() const noexcept { return staticPoint_; }
+  const Eigen::Vector3d& normal() const noexcept { return normal_; }
+  /// On the body. While the rest of a lost contact fades it differs from K^H u.
+  const Eigen::Vector3d& force() const noexcept { return force_; }
+  /// K^H at x^C as it is served, N/m.
+  const Eigen::Matrix3d& servedStiffness() const noexcept { return here_; }
+  /// m a tick: how far a resting probe's contact settles.
+  double relaxation() const noexcept { return relaxation_; }
+
+  // The last tick:
+  bool isSliding() const noexcept { return slides_ > 0; }
+  int slideCount() const noexcept { return slides_; }
+  /// (|f_t| - mu f_n) / |f|, 0 within the cone.
+  double coneExcess() const noexcept { return excess_; }
+  /// Whether x^C has not gone as far as it should.
+  bool wasHeldBack() const noexcept { return isHeldBack_; }
+  /// Whether it entered where the surface has no stiffness: then it feels nothing until it has
+  /// left.
+  bool isUnserved() const noexcept { return isUnserved_; }
+
+ private:
+  enum class State { Unknown, Outside, Touching };
+
+  bool begin(const Eigen::Vector3d& place) noexcept;
+  void slide(const Eigen::Vector3d& place, const Eigen::Vector3d& last, double limit) noexcept;
+  bool follow(const Eigen::Vector3d& displacement, const Eigen::Vector3d& place,
+              const Eigen::Vector3d& last, double limit) noexcept;
+  Eigen::Matrix3d stiffnessAt(int triangle, const Eigen::Vector3d& barycentric) const noexcept;
+  void arrive(const SurfacePoint& point, const Eigen::Matrix3d& stiffness) noexcept;
+
+  std::shared_ptr<const SurfaceStiffness> stiffness_, former_;
+  std::shared_ptr<const TouchedSurface> surface_;
+  double relaxation_, friction_ = 0;
+  bool adheres_ = false;
+  int blend_ = kBlendTicks;  ///< share of the new stiffness, of kBlendTicks
+
+  State state_ = State::Unknown;
+  bool hasPlace_ = false;
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();    ///< x^H
+  Eigen::Vector3d outside_ = Eigen::Vector3d::Zero();  ///< a place out of the material
+  SurfacePoint point_{0, Eigen::Vector3d::UnitX()};
+  Eigen::Vector3d staticPoint_ = Eigen::Vector3d::Zero(), normal_ = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d here_ = Eigen::Matrix3d::Zero();  ///< K^H(x^C)
+  double norm_ = 0;                                 ///< of here_, when the tick began
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+
+  int slides_ = 0;
+  double excess_ = 0;
+  bool isHeldBack_ = false, isUnserved_ = false;
+};
+
+}  // namespace palpate
