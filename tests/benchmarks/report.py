@@ -142,6 +142,20 @@ def contact_rows(folder):
            f"{sum(run.counter(name, 'allocations') for _, name, _ in ticks):.0f}")
 
 
+def haptics_rows(folder):
+    for file, n in (("haptics", 642), ("haptics_large", 2562)):
+        run = Results(folder / f"{file}.json")
+        for name, word, goal in (("tickOfPointTouch", "tick of a point that slides with friction", "≤ 5 µs"),
+                                 ("tickOfPointTouchWithSnapshot", "the same and its snapshot", "")):
+            case = next(c for c in run.cases if c.startswith(f"{name}/n:{n}"))
+            for kind, words in (("", f"{word}, n = {n}, p50 / p99 / p99.9 / max of the CPU time"),
+                                ("own_", "the same, each tick in the quickest of five passes")):
+                figures = " / ".join(f"{run.counter(case, kind + p):.2g}"
+                                     for p in ("p50", "p99", "p99_9", "max"))
+                yield words, goal, f"{figures} µs"
+            yield ("the same, heap allocations", "0", f"{run.counter(case, 'allocations'):.0f}")
+
+
 def print_table(header, rows):
     print("| " + " | ".join(header) + " |")
     print("|" + "---|" * len(header))
@@ -184,7 +198,8 @@ def print_paper_tables(folder):
 def main():
     folder = Path(sys.argv[1])
     rows = []
-    for part in (assembly_rows, solve_rows, precompute_rows, deformation_rows, contact_rows):
+    for part in (assembly_rows, solve_rows, precompute_rows, deformation_rows, contact_rows,
+                 haptics_rows):
         rows += part(folder)
     print_table(("quantity", "goal", "measured"), rows)
     print_paper_tables(folder)

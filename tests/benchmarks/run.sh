@@ -28,5 +28,7 @@ measure precompute precompute_benchmark 3 'n:642'
 measure precompute_large precompute_benchmark 1 'precompute<double>/n:2562'
 measure deformation deformation_benchmark 15 'n:(642|2562)'
 measure contact contact_benchmark 15 'n:642'
+measure haptics haptics_benchmark 5 '(tickOf.*/n:642|emptyTick)'
+measure haptics_large haptics_benchmark 3 'tickOf.*/n:2562'
 measure james_pai james_pai_benchmark 5 '.*'
 python3 "$here/report.py" "$results"

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What touching at points costs the servo loop in each tick: the distribution of the thread's CPU
+// time, in which other processes do not count.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "haptics/point_touch.h"
+#include "support/allocation_count.h"
+#include "support/cpu_clock.h"
+#include "support/spheres.h"
+
+namespace palpate::bench {
+namespace {
+
+constexpr int kTicks = 40000, kPasses = 5;
+
+/// CPU times of ticks that are the same in each of several passes.
+class Distribution {
+ public:
+  Distribution() : least_(kTicks, 1) { all_.reserve(kTicks * kPasses); }
+
+  void add(double seconds) {
+    double& least = least_[all_.size() % kTicks];
+    least = std::min(least, seconds);
+    all_.push_back(seconds);
+  }
+  /// Percentiles as counters, in microseconds: of all ticks, and of what each took in its quickest
+  /// pass, in which no interrupt was charged to it.
+  void report(benchmark::State& state) {
+    for (auto& [name, times] : {std::pair<std::string, std::vector<double>&>("", all_),
+                                std::pair<std::string, std::vector<double>&>("own_", least_)}) {
+      std::sort(times.begin(), times.end());
+      const auto micro = [&, &sorted = times](double share) {
+        return 1e6 * sorted[std::min(sorted.size() - 1, std::size_t(share * sorted.size()))];
+      };
+      state.counters[name + "p50"] = micro(0.5);
+      state.counters[name + "p99"] = micro(0.99);
+      state.counters[name + "p99_9"] = micro(0.999);
+      state.counters[name + "max"] = micro(1);
+    }
+  }
+
+ private:
+  std::vector<double> all_, least_;
+};
+
+/// A probe under friction that winds over all of a sphere at 0.1 m/s, taken as 10 cm in diameter:
+/// in contact most of the time, between an eighth of an edge above and three eighths below the
+/// surface.
+void slide(benchmark::State& state, bool withSnapshot) {
+  const int n = static_cast<int>(state.range(0));
+  const auto mesh = std::make_shared<SurfaceMesh>(sphereModel(n).mesh());
+  const double edge = mesh->meanEdgeLength();
+  const auto stiffness =
+      std::make_shared<SurfaceStiffness>(sphereGreens(n), mesh, MaskShape::Linear, 2 * edge);
+  PointTouch touch(stiffness, 1, 0.3);
+  ContactSnapshot snapshot = touch.makeSnapshot();
+  ToolPose pose;
+  Wrench wrench;
+  Distribution distribution;
+  double touching = 0, sliding = 0;
+  int tick = 0;
+  const long before = test::allocationCount();
+  for (auto _ : state) {
+    if (tick % kTicks == 0) touch.reset();
+    const double along = 2e-3 * (tick++ % kTicks);
+    const double polar = 1.6 + 1.4 * std::cos(0.061 * along);
+    const double radius = 1 - edge * (0.125 - 0.25 * std::cos(1.7 * along));
+    pose.position = radius * Eigen::Vector3d(std::sin(polar) * std::cos(along),
+                                             std::sin(polar) * std::sin(along), std::cos(polar));
+    const double start = cpuSeconds();
+    touch.step(&pose, &wrench);
+    if (withSnapshot) touch.fill(snapshot);
+    const double taken = cpuSeconds() - start;
+    state.SetIterationTime(taken);
+    distribution.add(taken);
+    touching += touch.contact(0).isTouching();
+    sliding += touch.contact(0).isSliding();
+  }
+  state.counters["allocations"] = double(test::allocationCount() - before);
+  state.counters["touching"] = touching / double(state.iterations());
+  state.counters["sliding"] = sliding / double(state.iterations());
+  distribution.report(state);
+}
+void tickOfPointTouch(benchmark::State& state) {
+  slide(state, false);
+}
+void tickOfPointTouchWithSnapshot(benchmark::State& state) {
+  slide(state, true);
+}
+
+/// What the clock itself adds to each of these.
+void emptyTick(benchmark::State& state) {
+  Distribution distribution;
+  for (auto _ : state) {
+    const double start = cpuSeconds();
+    benchmark::ClobberMemory();
+    const double taken = cpuSeconds() - start;
+    state.SetIterationTime(taken);
+    distribution.add(taken);
+  }
+  distribution.report(state);
+}
+
+void sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("n")->Arg(162)->Arg(642)->Arg(2562)->Unit(benchmark::kMicrosecond);
+  benchmark->UseManualTime()->Iterations(kTicks * kPasses);
+}
+BENCHMARK(tickOfPointTouch)->Apply(sizes);
+BENCHMARK(tickOfPointTouchWithSnapshot)->Apply(sizes);
+BENCHMARK(emptyTick)->Unit(benchmark::kMicrosecond)->UseManualTime()->Iterations(kTicks* kPasses);
+
+}  // namespace
+}  // namespace palpate::bench
