@@ -148,7 +148,7 @@ TEST_F(AHandThatFeels, TheModelOnlyEverSeesPosesThatAreValid) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-20, 20);
   const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, 0};
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < 1000000; ++i) {
     state_.sequence += random() % 2;
     double* const values[] = {&state_.pose.position.x(), &state_.pose.position.y(),
                               &state_.pose.position.z(), &state_.pose.orientation.x(),

@@ -134,6 +134,30 @@ TEST_F(StabilityLabAtAWall, TheStableStiffnessIsTheDevicesWhateverTheModelsOwn) 
   EXPECT_NEAR(elsewhere.largestStable(), found, 0.002 * found);
 }
 
+/// Holds a tool by springs along the axes, as a surface does that it sticks to.
+class Springs : public VirtualWall {
+ public:
+  explicit Springs(const Vector3d& stiffness)
+      : VirtualWall(0, Vector3d::Zero(), Vector3d::UnitZ()), stiffness_(stiffness) {}
+  ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept override {
+    wrenches[0] = {-stiffness_.cwiseProduct(poses[0].position), Vector3d::Zero()};
+    return {};
+  }
+
+ private:
+  Vector3d stiffness_;
+};
+
+TEST_F(StabilityLabAtAWall, TheStiffestAxisDecidesAlsoAcrossThePress) {
+  const double critical = criticalStiffness(settings_.device);
+  for (const Vector3d& ratio :
+       {Vector3d(3, 0, 1), Vector3d(0.2, 3, 1), Vector3d(0.5, 0.7, 1), Vector3d(0, 0, 1)}) {
+    Springs springs(200 * ratio);
+    const double expected = critical / ratio.maxCoeff();
+    EXPECT_NEAR(StabilityLab(springs, settings_).largestStable(), expected, 0.01 * expected);
+  }
+}
+
 TEST_F(StabilityLabAtAWall, ReportsProgressAndStopsOnRequest) {
   int calls = 0;
   EXPECT_THROW(zWidth(wall_, settings_, {1000}, {0.5, 1}, {0},
@@ -159,6 +183,7 @@ TEST_F(StabilityLabAtAWall, RefusesWhatItCannotPress) {
   EXPECT_TRUE(with([](auto& s) { s.place = {0, 0, 1}; }, "the model does not resist the press"));
   EXPECT_TRUE(with([](auto& s) { s.device.mass = -1; }, "the simulated device's mass"));
   EXPECT_TRUE(isRefused([&] { zWidth(wall_, {}, {0}, {1}, {0}); }, "the lab's rate"));
+  EXPECT_TRUE(isRefused([&] { lab().run(0); }, "the lab's stiffness is out of range: 0"));
   VirtualWall two(1, Vector3d::Zero(), Vector3d::UnitZ(), 2);
   EXPECT_TRUE(isRefused([&] { StabilityLab(two, {}); }, "number of tools is out of range: 2"));
 }

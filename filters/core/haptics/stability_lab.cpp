@@ -15,9 +15,12 @@ namespace palpate {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kKick = 0.3;          // amplitude over depth: the device stays inside
-constexpr double kLargestSwing = 0.5;  // root mean square over depth: it leaves, or soon will
+// Amplitude over depth, along the press and across: the device stays inside, and in its place.
+constexpr double kKick = 0.3, kSideKick = 0.03;
+constexpr double kLargestSwing =
+    0.5;  // root mean square over depth: it leaves the surface, or soon will
 constexpr int kWindows = 16;
+constexpr double kMostSeconds = 60;  // watched, for a device that is hardly damped
 
 void require(bool good, const char* name, double value) {
   if (!good)
@@ -25,25 +28,78 @@ void require(bool good, const char* name, double value) {
                                 " is out of range: " + std::to_string(value));
 }
 
-/// Mean and spread of a motion over a window.
+/// Mean and spread of a motion over a window, axis by axis.
 struct Window {
   void add(const Eigen::Vector3d& x) noexcept {
     ++count;
     sum += x;
-    squares += x.squaredNorm();
+    squares += x.cwiseAbs2();
     least = least.cwiseMin(x);
     most = most.cwiseMax(x);
   }
   Eigen::Vector3d mean() const noexcept { return sum / count; }
-  double swing() const noexcept {
-    return std::sqrt(std::max(0.0, squares / count - mean().squaredNorm()));
+  /// Root mean square about the mean.
+  Eigen::Vector3d swing() const noexcept {
+    return (squares / count - mean().cwiseAbs2()).cwiseMax(0).cwiseSqrt();
   }
-  double halfRange() const noexcept { return (most - least).maxCoeff() / 2; }
+  Eigen::Vector3d halfRange() const noexcept { return (most - least) / 2; }
 
   long count = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double squares = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = sum;
   Eigen::Vector3d least = Eigen::Vector3d::Constant(HUGE_VAL), most = -least;
+};
+
+/// A simulated device at a model whose forces are scaled.
+class Bench {
+ public:
+  Bench(TouchModel& model, const LabSettings& settings, double scale)
+      : model_(model), settings_(settings), scale_(scale), device_(settings.device) {
+    model_.reset();
+  }
+
+  /// @return false if the model failed or the device left all bounds.
+  bool tick(LabRun& result) {
+    device_.read(state_);
+    const Eigen::Vector3d& position = state_.pose.position;
+    pose_.position = settings_.place + position;
+    const ContactCertificate certificate = model_.step(&pose_, &wrench_);
+    wrench_ = {scale_ * wrench_.force, Eigen::Vector3d::Zero()};
+    observer_.advance(position);
+    if (settings_.passivityControl && !wrench_.force.isZero(0)) result.dampedTicks += damp();
+    last_ = position;
+    observer_.hold(wrench_.force);
+    device_.write(wrench_);
+    result.leastEnergy = std::min(result.leastEnergy, observer_.energy());
+    if (!certificate.failed && device_.position().allFinite()) return true;
+    result.residual = HUGE_VAL;
+    return false;
+  }
+
+  void kick(const Eigen::Vector3d& velocity) {
+    device_.place(device_.position(), device_.velocity() + velocity);
+  }
+
+  const Eigen::Vector3d& position() const { return device_.position(); }
+
+ private:
+  bool damp() {
+    const double period = settings_.device.period;
+    const Eigen::Vector3d velocity = (state_.pose.position - last_) / period;
+    const double damping = passivityDamping(observer_.contactEnergy(), velocity, period,
+                                            settings_.device.mass / period);
+    wrench_.force -= damping * velocity;
+    return damping > 0;
+  }
+
+  TouchModel& model_;
+  const LabSettings& settings_;
+  double scale_;
+  SimulatedDevice device_;
+  PassivityObserver observer_;
+  DeviceState state_;
+  ToolPose pose_;
+  Wrench wrench_;
+  Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace
@@ -71,6 +127,7 @@ StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
 }
 
 LabRun StabilityLab::run(double stiffness) const {
+  require(stiffness > 0 && std::isfinite(stiffness), "stiffness", stiffness);
   const double mass = settings_.device.mass, period = settings_.device.period;
   const double damping = settings_.device.damping + settings_.device.hand.damping;
   // At a relative distance e from the bound, swings shrink like exp(-e b t / 2m): long enough to
@@ -78,66 +135,42 @@ LabRun StabilityLab::run(double stiffness) const {
   const double swingSeconds = 2 * kPi * std::sqrt(mass / stiffness);
   const double pressSeconds = std::max(20 * swingSeconds, 0.1);
   const double seconds =
-      std::max(0.1 * 2 * mass / (settings_.tolerance * damping), kWindows * 4 * swingSeconds);
+      std::max(std::min(0.1 * 2 * mass / (settings_.tolerance * damping), kMostSeconds),
+               kWindows * 4 * swingSeconds);
   const long press = std::lround(pressSeconds / period), watched = std::lround(seconds / period);
 
-  SimulatedDeviceSettings settings = settings_.device;
-  const Eigen::Vector3d push = (stiffness + settings.hand.stiffness) * settings_.depth * direction_;
-  settings.hand.path = nullptr;
-  settings.hand.push = [&](double t) -> Eigen::Vector3d {
+  LabSettings settings = settings_;
+  const Eigen::Vector3d push =
+      (stiffness + settings.device.hand.stiffness) * settings.depth * direction_;
+  settings.device.hand.path = nullptr;
+  settings.device.hand.push = [&](double t) -> Eigen::Vector3d {
     return t < pressSeconds ? 0.5 * (1 - std::cos(kPi * t / pressSeconds)) * push : push;
   };
-  SimulatedDevice device(settings);
+  // Axes across the press and along it.
+  const Eigen::Matrix3d axes =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction_).toRotationMatrix();
+  const Eigen::Vector3d kick = axes * Eigen::Vector3d(kSideKick, kSideKick, kKick) *
+                               settings.depth * std::sqrt(stiffness / mass);
 
   LabRun result;
-  PassivityObserver observer;
-  model_->reset();
-  ToolPose pose;
-  Wrench wrench;
-  DeviceState state;
-  Eigen::Vector3d last = Eigen::Vector3d::Zero();
-  double firstSwing = 0;
-  Window window;
-  for (long tick = 0; tick < press + watched; ++tick) {
-    device.read(state);
-    pose.position = settings_.place + state.pose.position;
-    const ContactCertificate certificate = model_->step(&pose, &wrench);
-    wrench.force *= stiffness / stiffness_;
-    wrench.torque.setZero();
-    observer.advance(state.pose.position);
-    if (settings_.passivityControl) {
-      const Eigen::Vector3d velocity = (state.pose.position - last) / period;
-      const double served =
-          passivityDamping(observer.contactEnergy(), velocity, period, mass / period);
-      if (!wrench.force.isZero(0) && served > 0) {
-        wrench.force -= served * velocity;
-        ++result.dampedTicks;
-      }
+  Bench bench(*model_, settings, stiffness / stiffness_);
+  for (long tick = 0; tick < press; ++tick)
+    if (!bench.tick(result)) return result;
+  bench.kick(kick);
+  Eigen::Vector3d firstSwing = Eigen::Vector3d::Zero();
+  for (int number = 0; number < kWindows; ++number) {
+    Window window;
+    for (long tick = number * watched / kWindows; tick < (number + 1) * watched / kWindows;
+         ++tick) {
+      if (!bench.tick(result)) return result;
+      window.add(axes.transpose() * bench.position());
     }
-    last = state.pose.position;
-    observer.hold(wrench.force);
-    device.write(wrench);
-    result.leastEnergy = std::min(result.leastEnergy, observer.energy());
-    if (!device.position().allFinite() || certificate.failed) {
-      result.residual = HUGE_VAL;
-      return result;
-    }
-
-    if (tick == press)
-      device.place(
-          device.position(),
-          device.velocity() + kKick * settings_.depth * std::sqrt(stiffness / mass) * direction_);
-    if (tick < press) continue;
-    window.add(device.position());
-    const long number = (tick - press) * kWindows / watched;
-    if ((tick + 1 - press) * kWindows / watched == number) continue;
-    result.residual = window.halfRange();
-    const double swing = window.swing();
-    if (swing > kLargestSwing * window.mean().dot(direction_)) return result;
+    result.residual = window.halfRange().maxCoeff();
+    const Eigen::Vector3d swing = window.swing();
+    if (swing.z() > kLargestSwing * window.mean().z()) return result;
     if (number == 0) firstSwing = swing;
-    if (number == kWindows - 1)
-      result.stable = swing < firstSwing || window.halfRange() <= 2 * settings.quantum;
-    window = Window();
+    result.stable = number == kWindows - 1 && ((swing.array() < firstSwing.array()).all() ||
+                                               result.residual <= 2 * settings.device.quantum);
   }
   return result;
 }

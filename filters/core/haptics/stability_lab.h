@@ -39,9 +39,9 @@ struct ZWidthPoint {
 };
 
 /// A laboratory of stability without hardware. A simulated device is pressed to a depth by a
-/// constant force, kicked by three tenths of the depth, and left alone: it is stable if its motion
-/// there shrinks. The hand's force and the model's are scaled alike, so that every stiffness is
-/// tried at the same depth.
+/// constant force, kicked by three tenths of the depth and a tenth of that sideways, and left
+/// alone: it is stable if its motion there shrinks along every axis, or to two quanta. The hand's
+/// force and the model's are scaled alike, so that every stiffness is tried at the same depth.
 class StabilityLab {
  public:
   /// @param model  with one tool; stepped and reset by the lab, and to outlive it.
@@ -53,6 +53,7 @@ class StabilityLab {
   double stiffness() const noexcept { return stiffness_; }
 
   /// @param stiffness  that the model is scaled to, N/m.
+  /// @throws std::invalid_argument if it is not positive.
   LabRun run(double stiffness) const;
 
   /// The largest stable stiffness by bisection, to the tolerance; N/m. 0 without damping or where
