@@ -46,7 +46,7 @@ forbid("Green's functions include a producer or a consumer"
 forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/mesh/*.cpp
   PATTERN "${include}(model|bem|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
-  PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|boost|lapacke|cblas)"
+  PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
   EXCEPT "filters/core/(simd/|mesh/cgal_surface[.]h)")
 forbid("CGAL's own header leaves its sources" FILES ${all_core}
   PATTERN "${include}mesh/cgal_surface[.]h" EXCEPT "filters/core/mesh/.*[.]cpp$")
@@ -54,6 +54,11 @@ forbid("CGAL outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/* ${
   PATTERN "${include}CGAL" EXCEPT "filters/core/mesh/(.*[.]cpp|cgal_surface[.]h)$")
 forbid("OpenMesh outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}OpenMesh" EXCEPT "filters/core/mesh/.*[.]cpp$")
+forbid("hidapi outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
+  PATTERN "${include}hidapi" EXCEPT "filters/core/haptics/hidapi_bus[.]cpp$")
+forbid("JSON outside the source that reads descriptions"
+  FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
+  PATTERN "${include}nlohmann" EXCEPT "filters/core/haptics/hid_description[.]cpp$")
 forbid("a filter includes an app" FILES ${SOURCE}/filters/vtk/*.h ${SOURCE}/filters/vtk/*.cxx
   PATTERN "${include}(apps|picture|terminal|commands)")
 forbid("a public VTK header includes the core or Eigen" FILES ${SOURCE}/filters/vtk/*/vtk*.h
