@@ -80,8 +80,7 @@ TEST(PidReports, ADeviceWithoutRoomLoadsNoBlock) {
 
 TEST(PidReports, WhatADescriptorLacksIsNamed) {
   Bytes bytes = PidJoystick::descriptor();
-  EXPECT_TRUE(PidOutput::isDescribedBy(HidDescriptor(bytes)));
-  EXPECT_FALSE(PidOutput::isDescribedBy(HidDescriptor()));
+  EXPECT_TRUE(PidOutput::isComplete(HidDescriptor(bytes)));
   EXPECT_TRUE(isRefused([] { PidOutput output{HidDescriptor()}; },
                         "describes no block of a constant force"));
   // Another usage in place of "create new effect", of "axes enable", of "effect operation".
@@ -95,6 +94,7 @@ TEST(PidReports, WhatADescriptorLacksIsNamed) {
       if (lacking[i] == 0x09 && lacking[i + 1] == usage && lacking[i + 2] == 0xa1)
         lacking[i + 1] = 0xf0;
     EXPECT_TRUE(isRefused([&] { PidOutput output{HidDescriptor(lacking)}; }, sentence));
+    EXPECT_FALSE(PidOutput::isComplete(HidDescriptor(lacking)));
   }
 }
 

@@ -39,8 +39,13 @@ void choose(const HidField& field, std::uint32_t usage, std::vector<std::uint8_t
 
 }  // namespace
 
-bool PidOutput::isDescribedBy(const HidDescriptor& descriptor) noexcept {
-  return descriptor.find(HidReportKind::Output, pid(kSetConstantForce), pid(kMagnitude));
+bool PidOutput::isComplete(const HidDescriptor& descriptor) noexcept {
+  try {
+    PidOutput output(descriptor);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 const HidField& PidOutput::need(HidReportKind kind, std::uint16_t collection, std::uint32_t usage,

@@ -20,8 +20,8 @@ class PidOutput {
  public:
   using Report = std::vector<std::uint8_t>;
 
-  /// Whether a descriptor speaks of constant force at all.
-  static bool isDescribedBy(const HidDescriptor& descriptor) noexcept;
+  /// Whether a descriptor has all that it takes.
+  static bool isComplete(const HidDescriptor& descriptor) noexcept;
 
   /// @throws std::invalid_argument with what the descriptor lacks.
   explicit PidOutput(const HidDescriptor& descriptor);
