@@ -17,5 +17,6 @@ void addRefine(CLI::App& program);
 void addPrecompute(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
+void addDevices(CLI::App& program);
 
 }  // namespace palpate::app

@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
     for (const CLI::App* sub : app->get_subcommands()) name += " " + sub->get_name();
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
-  for (const auto add : {addInfo, addRepair, addRefine, addPrecompute, addPress, addStiffness})
+  for (const auto add :
+       {addInfo, addRepair, addRefine, addPrecompute, addPress, addStiffness, addDevices})
     add(program);
   catchInterrupts();
   try {
