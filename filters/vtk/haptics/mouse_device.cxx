@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mouse_device.h"
+
+namespace palpate
+{
+MouseDevice::MouseDevice(double period, double speed)
+  : Step(period * speed)
+{
+  this->Info.name = "mouse";
+}
+
+void MouseDevice::Put(const ToolPose& pose) noexcept
+{
+  Goal& goal = this->Goals.writable();
+  goal.Pose = pose;
+  goal.Jumps = this->Jumps;
+  this->Goals.publish();
+}
+
+void MouseDevice::PutAtOnce(const ToolPose& pose) noexcept
+{
+  ++this->Jumps;
+  this->Put(pose);
+}
+
+bool MouseDevice::read(DeviceState& state) noexcept
+{
+  this->Goals.update();
+  const Goal& goal = this->Goals.latest();
+  const Eigen::Vector3d from = this->Now.pose.position, way = goal.Pose.position - from;
+  const double length = way.norm();
+  this->Now.pose = goal.Pose;
+  if (goal.Jumps == this->JumpsSeen && length > this->Step)
+  {
+    this->Now.pose.position = from + this->Step / length * way;
+  }
+  this->JumpsSeen = goal.Jumps;
+  ++this->Now.sequence; // a mouse that rests is no silent one
+  state = this->Now;
+  return true;
+}
+} // namespace palpate
