@@ -88,7 +88,8 @@ class ForceSafety {
   bool startsAnew() const noexcept { return startsAnew_; }
 
   struct Request {
-    Wrench wanted;  ///< in the device's frame
+    /// In the device's frame.
+    Wrench wanted{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     ContactCertificate certificate;
     bool late = false;    ///< whether the tick is over its budget
     bool paused = false;  ///< fade and stay at zero, without a fault

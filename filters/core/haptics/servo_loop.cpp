@@ -217,7 +217,7 @@ void ServoLoop::tick(std::int64_t periods, bool timed) noexcept {
   ++tick_;
 
   readHands(elapsed);
-  ForceSafety::Request request{kNoWrench, {}, false, false};
+  ForceSafety::Request request;
   request.paused = paused_ || stopping_.load(std::memory_order_relaxed);
   if (!paused_)
     request.certificate = stage_->model->step(stage_->poses.data(), stage_->wrenches.data());
