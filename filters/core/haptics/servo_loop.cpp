@@ -178,10 +178,10 @@ bool ServoLoop::update() {
 }
 
 void ServoLoop::run() noexcept {
+  renderNothing();
   if (settings_.realTime)
     statistics_.realTimeGranted.store(preferRealTime(settings_.processor),
                                       std::memory_order_relaxed);
-  renderNothing();
   // Deadlines are begin + k periods, so that no rounding or delay adds up.
   const double period = 1e9 * period_;
   const std::int64_t begin = nowNanoseconds();
