@@ -324,6 +324,33 @@ TEST_F(AHandThatFeels, ManyLateSolvesInARowAreAFaultAndFewAreNot) {
   expectToReturnByARamp();
 }
 
+TEST_F(AHandThatFeels, OneFaultAfterAnotherNeverRaisesAForceThatFades) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    state_.pose.position.setZero();
+    present_ = delivered_ = true;
+    request_ = ForceSafety::Request();
+    request_.wanted.force = {0, 0, 1};
+    tickUntilItRenders();
+    double last = tick().force.norm();
+    for (int i = 0; i < 30; ++i) {
+      // Always something: silence beyond what is tolerated, a jump, a failure or a pause.
+      const unsigned what = random() % 4;
+      request_.certificate.failed = what == 1;
+      request_.paused = what == 2;
+      if (what == 3) state_.pose.position.x() = state_.pose.position.x() > 0 ? 0 : 1;
+      const bool silent = what == 0 && i > 0;
+      if (silent) silentTick();
+      const double force = (silent ? silentTick() : tick()).force.norm();
+      EXPECT_LE(force, last + (what == 0 && i == 0 ? 1 : 0));
+      last = force;
+    }
+    EXPECT_EQ(last, 0);
+    request_ = ForceSafety::Request();
+    for (int i = 0; i < 20; ++i) tick();
+  }
+}
+
 TEST_F(AHandThatFeels, PausingFadesWithoutAFaultAndResumingRamps) {
   tickUntilItRenders();
   const double before = tick().force.norm();

@@ -155,6 +155,10 @@ Fault ForceSafety::judgeSolve(const Request& request) noexcept {
   return Fault::None;
 }
 
+void ForceSafety::delivered(bool arrived) noexcept {
+  undelivered_ = arrived ? 0 : std::min(undelivered_ + 1, settings_.largestSilence);
+}
+
 /// 1 up to the tolerated silence, then linearly down to 0 at the largest one.
 double ForceSafety::silentShare() const noexcept {
   const double left = settings_.largestSilence - silence_;
@@ -172,15 +176,16 @@ Wrench ForceSafety::bounded(const Wrench& wanted) noexcept {
 /// One tick of fading from the last sound wrench. Once latched it goes on to zero.
 void ForceSafety::fade(bool latch, double elapsed) noexcept {
   faded_ += elapsed;
-  double share = 1 - faded_ / settings_.fadeSeconds;
-  if (share < kRounding) share = 0;
-  if (silence_ > settings_.toleratedSilence) share = std::min(share, silentShare());
-  rendered_ = {share * sound_.force, share * sound_.torque};
-  if (latch) report_.phase = share > 0 ? SafetyPhase::Fading : SafetyPhase::Settling;
+  // Never up again, whatever fault follows another.
+  share_ = std::min({share_, 1 - faded_ / settings_.fadeSeconds, silentShare()});
+  if (share_ < kRounding) share_ = 0;
+  rendered_ = {share_ * sound_.force, share_ * sound_.torque};
+  if (latch) report_.phase = share_ > 0 ? SafetyPhase::Fading : SafetyPhase::Settling;
 }
 
 void ForceSafety::render(const Wrench& wanted) noexcept {
   faded_ = 0;
+  share_ = 1;
   if (report_.phase == SafetyPhase::Settling) {
     settled_ += period_;
     if (settled_ + kRounding * period_ >= settings_.settleSeconds)

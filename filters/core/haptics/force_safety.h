@@ -100,7 +100,7 @@ class ForceSafety {
   const Wrench& limit(const Request& request, double elapsed) noexcept;
 
   /// Tells whether the device took it.
-  void delivered(bool arrived) noexcept { undelivered_ = arrived ? 0 : undelivered_ + 1; }
+  void delivered(bool arrived) noexcept;
 
   const SafetyReport& report() const noexcept { return report_; }
 
@@ -125,6 +125,7 @@ class ForceSafety {
   int silence_ = 0, undelivered_ = 0, failed_ = 0, late_ = 0;
 
   double settled_ = 0, faded_ = 0;  ///< s
+  double share_ = 1;                ///< of sound_, while it fades
   Wrench sound_, rendered_;         ///< sound_: the last one without a fault
 };
 
