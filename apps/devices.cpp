@@ -87,8 +87,16 @@ void addDevices(CLI::App& program) {
       program.add_subcommand("devices", "Devices that a hand can touch with, and what each can do");
   command->add_option("--description", *path, "Check a description of a board's reports, JSON");
   command->footer(
-      "Boards that are not known need a description of their reports.\n"
-      "  palpate devices --description board.json");
+      "Boards that are not known need a description of their reports: offsets in bytes, counted\n"
+      "with the report's number, metres and newtons per count, null for what a board lacks.\n"
+      "  palpate devices --description board.json\n"
+      "{ \"name\": \"paddle\", \"vendor\": \"0x1209\", \"product\": \"0x0001\",\n"
+      "  \"input\": { \"report\": 1, \"length\": 5, \"position\": [\n"
+      "    { \"offset\": 1, \"type\": \"int16\", \"scale\": 1e-5 },\n"
+      "    { \"offset\": 3, \"type\": \"int16\", \"scale\": 1e-5 }, null ] },\n"
+      "  \"output\": { \"report\": 2, \"length\": 3, \"force\": [\n"
+      "    { \"offset\": 1, \"type\": \"int16\", \"scale\": 1e-3 }, null, null ] },\n"
+      "  \"limits\": { \"force\": 3, \"stiffness\": 600 } }");
   command->callback([path] {
     if (!path->empty()) return printDescription(*path);
     printDevices();

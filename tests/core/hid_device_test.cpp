@@ -272,6 +272,10 @@ TEST_F(HidDevices, ThatAreNotThereOrDoNotAnswerAreRefused) {
   EXPECT_TRUE(isRefused<std::runtime_error>([&] { open(); }, "does not tell what it can do"));
   hid_.unplug();
   EXPECT_TRUE(isRefused<std::runtime_error>([&] { open(); }, "the device 'arm' is not there"));
+  EXPECT_TRUE(
+      isRefused([&] { HidDevice device("arm", hid_.opener(), nullptr); }, "and a protocol"));
+  EXPECT_TRUE(isRefused([&] { HidDevice device("arm", nullptr, makePalpateProtocol()); },
+                        "needs a way to open it"));
 }
 
 }  // namespace

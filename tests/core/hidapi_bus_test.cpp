@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cmath>
+#include <thread>
 
 #include "haptics/hid_bus.h"
 #include "haptics/palpate_report.h"
@@ -209,7 +212,7 @@ TEST_F(HidapiBus, LateLostAndRepeatedReportsChangeNothing) {
   std::uint64_t good = 0, bad = 0;
   std::uint32_t sequence = 10000;
   const auto send = [&](const Bytes& report, std::uint64_t& count) {
-    EXPECT_TRUE(emulator_.send(number, report));
+    ASSERT_TRUE(eventually([&] { return emulator_.send(number, report); }));
     ++count;
   };
   for (int i = 0; i < 3000; ++i) {
@@ -258,6 +261,37 @@ TEST_F(HidapiBus, WithoutTheRightToOpenItSaysSo) {
   emulator_.failToOpen(number, EACCES);
   EXPECT_TRUE(isRefused<std::runtime_error>([&] { openHidDevice(recordOf("Open arm")); },
                                             "'/dev/hidraw0' may not be opened: a udev rule"));
+}
+
+TEST_F(HidapiBus, AtAThousandReportsASecondStatesArriveWhileTheyAreNew) {
+  const int number = emulator_.plug(arm());
+  const auto device = openArm();
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  std::atomic<std::uint32_t> sent{0};
+  int rendered = 0;
+  std::thread firmware([&] {
+    for (std::uint32_t i = 1; i <= 1000; ++i) {
+      std::this_thread::sleep_until(begin + std::chrono::milliseconds(i));
+      emulator_.send(number, stateReport(i));
+      sent = i;
+      while (!emulator_.nextOutput(number).empty()) ++rendered;
+    }
+  });
+  std::vector<std::int64_t> ages;  // of the states that a servo loop reads, in reports
+  for (int tick = 1; tick <= 1000; ++tick) {
+    std::this_thread::sleep_until(begin + std::chrono::microseconds(1000 * tick + 500));
+    DeviceState state;
+    if (device->read(state))
+      ages.push_back(std::int64_t{sent} - std::llround(1e6 * state.pose.position.x()));
+    device->write(push(1));
+  }
+  firmware.join();
+  ASSERT_GT(ages.size(), 500u);
+  std::nth_element(ages.begin(), ages.begin() + static_cast<long>(ages.size() / 2), ages.end());
+  EXPECT_LE(ages[ages.size() / 2], 2) << "in the median";
+  EXPECT_TRUE(eventually([&] { return device->counts().statesTaken == 1000; }));
+  EXPECT_GT(rendered, 300);
 }
 
 TEST_F(HidapiBus, RoundTripsKeepUpWithAServoLoop) {

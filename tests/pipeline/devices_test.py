@@ -86,6 +86,13 @@ class Devices(unittest.TestCase):
         self.assertTrue(error.startswith("palpate: ") and error.count("\n") == 1, error)
         self.assertIn('"input.position[0].type" must be one of', error)
 
+    def test_has_an_example_in_its_help_that_is_one(self):
+        told = subprocess.run([PROGRAM, "devices", "--help"], capture_output=True, text=True).stdout
+        self.assertIn("  palpate devices ", told)
+        board = self.folder / "board.json"
+        board.write_text(told[told.index("{"):told.rindex("}") + 1])
+        self.assertIn("description of              paddle", self.run_with([], "--description", board))
+
     def test_alone_loads_hidapi(self):
         def loads_hidapi(*arguments):
             ran = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True,

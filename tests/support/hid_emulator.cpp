@@ -185,7 +185,7 @@ bool HidEmulator::send(int number, const Bytes& report) {
     const std::lock_guard<std::mutex> lock(mutex);
     file = nodes.at(number).ours;
   }
-  return file >= 0 && ::send(file, report.data(), report.size(), MSG_NOSIGNAL) >= 0;
+  return file >= 0 && ::send(file, report.data(), report.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 
 void HidEmulator::takeOutputs(int number) {

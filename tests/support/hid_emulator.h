@@ -46,7 +46,7 @@ class HidEmulator {
   void failToOpen(int number, int error);
 
   /// Sends a report to whoever has it open.
-  /// @return false if nobody has.
+  /// @return false if nobody has, or some hundred have not been read.
   bool send(int number, const Bytes& report);
   /// Gives its onOutput what was written to it since.
   void takeOutputs(int number);

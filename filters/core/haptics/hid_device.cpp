@@ -21,6 +21,8 @@ constexpr int kWaitToRender = 1, kWaitToRead = 20;
 HidDevice::HidDevice(const std::string& name, HidOpener open, std::unique_ptr<HidProtocol> protocol,
                      const Timing& timing)
     : name_(name), open_(std::move(open)), protocol_(std::move(protocol)), timing_(timing) {
+  if (!open_ || !protocol_)
+    throw std::invalid_argument("a HID device needs a way to open it and a protocol");
   std::promise<DeviceInfo> opened;
   std::future<DeviceInfo> info = opened.get_future();
   thread_ = std::thread(&HidDevice::run, this, std::move(opened));

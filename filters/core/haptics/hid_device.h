@@ -44,8 +44,8 @@ class HidDevice final : public HapticDevice {
 
   /// Opens the device, which must be there.
   /// @param name  for people.
-  /// @throws std::runtime_error if it is not there or does not do what the protocol needs;
-  ///         whatever `open` throws.
+  /// @throws std::invalid_argument without `open` or protocol; std::runtime_error if it is not
+  ///         there or does not do what the protocol needs; whatever `open` throws.
   HidDevice(const std::string& name, HidOpener open, std::unique_ptr<HidProtocol> protocol,
             const Timing& timing);
   HidDevice(const std::string& name, HidOpener open, std::unique_ptr<HidProtocol> protocol)

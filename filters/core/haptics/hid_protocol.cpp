@@ -128,6 +128,7 @@ class PalpateProtocol final : public HidProtocol {
     info.largestTorque = capability.largestTorque;
     info.largestStiffness = capability.largestStiffness;
     numbering_ = {};
+    state_ = {};
     hasState_ = false;
   }
 

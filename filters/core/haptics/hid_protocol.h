@@ -42,6 +42,7 @@ class HidProtocol {
 std::unique_ptr<HidProtocol> makeSpaceMouseProtocol(const AxisScale& scale);
 
 /// Sticks that describe their axes, with force feedback if they describe all of it (PidOutput).
+/// PID has no watchdog: killed rather than closed, this program leaves a stick with its last force.
 /// @throws std::invalid_argument if there is no axis.
 std::unique_ptr<HidProtocol> makeJoystickProtocol(const HidDescriptor& descriptor,
                                                   const AxisScale& scale);
