@@ -91,9 +91,10 @@ class SlidingOver : public testing::TestWithParam<HardBody> {
   std::mt19937 random_{5};
 };
 
-TEST_P(SlidingOver, RandomWaysNeverJumps) {
+TEST_P(SlidingOver, NeitherJumpsNorLosesTheSurfaceOnRandomWays) {
+  const SurfaceLocator locator(stiffness_->sharedMesh());
   double largest = 0;
-  int touching = 0;
+  int touching = 0, lost = 0;
   for (double mu : {0.0, 0.3, 1.0}) {
     WatchedContact contact(stiffness_, mu);
     contact.advance(beside(-2));
@@ -106,7 +107,14 @@ TEST_P(SlidingOver, RandomWaysNeverJumps) {
       Eigen::Vector3d to = beside(depth);
       to = contact.place() +
            (to - contact.place()) * std::min(1., 100 * step / (to - contact.place()).norm());
-      contact.moveTo(to, step, [&] { touching += contact.contact.isTouching(); });
+      contact.moveTo(to, step, [&] {
+        touching += contact.contact.isTouching();
+        const Eigen::Vector3d nearest = placeOf(locator.mesh(), locator.nearest(contact.place()));
+        const bool isDeep =
+            locator.isInside(contact.place()) && (nearest - contact.place()).norm() > 0.02 * edge_;
+        lost = isDeep && !contact.contact.isTouching() ? lost + 1 : 0;
+        EXPECT_LE(lost, 1) << "a probe below the surface is found again in the next tick";
+      });
     }
     largest = std::max(largest, contact.largestRatio);
   }

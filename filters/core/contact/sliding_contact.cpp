@@ -7,8 +7,6 @@
 #include <Eigen/Eigenvalues>
 #include <stdexcept>
 
-#include "contact/coulomb_slip.h"
-
 namespace palpate {
 namespace {
 
@@ -106,6 +104,8 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& place) noe
   const double limit = kContinuity * norm_ * step;
   if (isTouching()) {
     slide(place, last, limit);
+    // In a hollow the probe may be above x^C's tangent plane, but below the surface ahead of it.
+    if (!isTouching() && begin(place) && slipAt(place).friction == Friction::LetsGo) end();
     if (isTouching())
       force = here_ * (place - staticPoint_);
     else
@@ -147,7 +147,7 @@ void SlidingContact::slide(const Eigen::Vector3d& place, const Eigen::Vector3d& 
   if (adheres_) return;
   // A contact that begins may already be beyond the limit; it need not leave that by slipping.
   limit = std::max(limit, (here_ * (place - staticPoint_) - last).norm());
-  CoulombSlip slip = coulombSlip(here_, normal_, place - staticPoint_, friction_);
+  CoulombSlip slip = slipAt(place);
   while (slip.friction != Friction::Sticks && !isHeldBack_ && slides_ < kMostSlides &&
          !(slides_ > 0 && slip.friction == Friction::Slips && slip.excess <= kSettled)) {
     const SurfacePoint start = point_;
@@ -156,7 +156,7 @@ void SlidingContact::slide(const Eigen::Vector3d& place, const Eigen::Vector3d& 
     for (double share = 1;;) {
       isHeldBack_ = !follow(share * from.displacement, place, last, limit);
       ++slides_;
-      slip = coulombSlip(here_, normal_, place - staticPoint_, friction_);
+      slip = slipAt(place);
       // Where K varies it may have slipped too far, into the cone: then back to its rim.
       if (from.friction != Friction::Slips || slip.friction != Friction::Sticks ||
           slip.excess >= -kSettled || slides_ == kMostSlides)
@@ -166,7 +166,15 @@ void SlidingContact::slide(const Eigen::Vector3d& place, const Eigen::Vector3d& 
     }
   }
   excess_ = std::max(0., slip.excess);
-  if (slip.friction != Friction::LetsGo) return;
+  if (slip.friction == Friction::LetsGo) end();
+}
+
+/// What friction asks of x^C where it is.
+CoulombSlip SlidingContact::slipAt(const Eigen::Vector3d& place) const noexcept {
+  return coulombSlip(here_, normal_, place - staticPoint_, friction_);
+}
+
+void SlidingContact::end() noexcept {
   const SurfaceMesh& mesh = surface_->walk.mesh();
   state_ = State::Outside;
   outside_ = staticPoint_ + kLift * mesh.diagonal() * mesh.triangleNormals().col(point_.triangle);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "contact/coulomb_slip.h"
 #include "contact/surface_stiffness.h"
 #include "mesh/surface_locator.h"
 #include "mesh/surface_walk.h"
@@ -30,7 +31,7 @@ struct TouchedSurface {
 /// where they vanish): within the cone x^C sticks, beyond it slips (coulombSlip, walked over the
 /// surface and repeated where normal and stiffness have changed on the way). With adhesion x^C
 /// sticks whatever the force. The contact ends when the probe is above the tangent plane and no
-/// longer within the cone.
+/// longer within the cone, unless it is then below the surface elsewhere on its way.
 ///
 /// Continuity. Whatever the mesh, the force served changes in a tick by at most
 ///     kContinuity |K| (|step of x^H| + relaxation()) + |change of K| |u|,
@@ -111,6 +112,8 @@ class SlidingContact {
   enum class State { Unknown, Outside, Touching };
 
   bool begin(const Eigen::Vector3d& place) noexcept;
+  void end() noexcept;
+  CoulombSlip slipAt(const Eigen::Vector3d& place) const noexcept;
   void slide(const Eigen::Vector3d& place, const Eigen::Vector3d& last, double limit) noexcept;
   bool follow(const Eigen::Vector3d& displacement, const Eigen::Vector3d& place,
               const Eigen::Vector3d& last, double limit) noexcept;
