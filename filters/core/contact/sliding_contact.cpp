@@ -104,12 +104,18 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& place) noe
   const double limit = kContinuity * norm_ * step;
   if (isTouching()) {
     slide(place, last, limit);
-    // In a hollow the probe may be above x^C's tangent plane, but below the surface ahead of it.
-    if (!isTouching() && begin(place) && slipAt(place).friction == Friction::LetsGo) end();
-    if (isTouching())
+    if (!isTouching() && surface_->locator.isInside(place)) {
+      // As in a hollow, where it is above x^C's tangent plane but below the surface ahead of it.
+      touch(surface_->locator.nearest(place));
+      if (isTouching() && slipAt(place).friction == Friction::LetsGo) end();
+    }
+    if (isTouching()) {
       force = here_ * (place - staticPoint_);
-    else
+      // Held back, x^C may be where the force that it is on its way to would pull.
+      if (!adheres_) force -= std::max(0., normal_.dot(force)) * normal_;
+    } else {
       norm_ = spectralNorm(here_);
+    }
   }
   const double jump = (force - force_).norm();
   if (jump <= limit + ofChange)
@@ -134,11 +140,16 @@ bool SlidingContact::begin(const Eigen::Vector3d& place) noexcept {
     outside_ = place;
     return false;
   }
-  const Eigen::Matrix3d stiffness = stiffnessAt(entry->triangle, entry->barycentric);
+  touch(*entry);
+  return isTouching();
+}
+
+/// Begins contact at a place of the surface, if that has a stiffness.
+void SlidingContact::touch(const SurfacePoint& point) noexcept {
+  const Eigen::Matrix3d stiffness = stiffnessAt(point.triangle, point.barycentric);
   isUnserved_ = !stiffness.allFinite();
   state_ = isUnserved_ ? State::Unknown : State::Touching;
-  if (!isUnserved_) arrive(*entry, stiffness);
-  return !isUnserved_;
+  if (!isUnserved_) arrive(point, stiffness);
 }
 
 /// Lets x^C slip until the force is on the cone, or lets go.

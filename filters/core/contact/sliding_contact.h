@@ -31,7 +31,8 @@ struct TouchedSurface {
 /// where they vanish): within the cone x^C sticks, beyond it slips (coulombSlip, walked over the
 /// surface and repeated where normal and stiffness have changed on the way). With adhesion x^C
 /// sticks whatever the force. The contact ends when the probe is above the tangent plane and no
-/// longer within the cone, unless it is then below the surface elsewhere on its way.
+/// longer within the cone; if it is inside the body all the same, as in a hollow, x^C goes on from
+/// the point nearest to it.
 ///
 /// Continuity. Whatever the mesh, the force served changes in a tick by at most
 ///     kContinuity |K| (|step of x^H| + relaxation()) + |change of K| |u|,
@@ -39,8 +40,8 @@ struct TouchedSurface {
 /// ended, while a lost contact's force fades). If x^C stays, the force changes by |K| |step|; so
 /// x^C slides only as far as the force stays within the bound, and goes on in the next tick, by the
 /// relaxation's share even if the probe rests. Losing contact obeys the same bound: what is left of
-/// the force fades. A change of friction is not felt but through slipping; a change of stiffness is
-/// spread over kBlendTicks ticks.
+/// the force fades. Meanwhile what would pull of the force is not served. A change of friction is
+/// not felt but through slipping; a change of stiffness is spread over kBlendTicks ticks.
 ///
 /// Energy. A tick from (x^C_0, u_0, K_0) to (x^C_1, u_1, K_1) costs the hand the work
 ///     (f_0 + f_1) / 2 . dx^H = [u^T K u / 2] + (f_0 + f_1) / 2 . dx^C - u_0^T dK u_1 / 2,
@@ -90,7 +91,7 @@ class SlidingContact {
   const SurfacePoint& point() const noexcept { return point_; }
   const Eigen::Vector3d& staticPoint() const noexcept { return staticPoint_; }
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
-  /// On the body. While the rest of a lost contact fades it differs from K^H u.
+  /// On the body: K^H u, but while x^C is held back or the rest of a lost contact fades.
   const Eigen::Vector3d& force() const noexcept { return force_; }
   /// K^H at x^C as it is served, N/m.
   const Eigen::Matrix3d& servedStiffness() const noexcept { return here_; }
@@ -112,6 +113,7 @@ class SlidingContact {
   enum class State { Unknown, Outside, Touching };
 
   bool begin(const Eigen::Vector3d& place) noexcept;
+  void touch(const SurfacePoint& point) noexcept;
   void end() noexcept;
   CoulombSlip slipAt(const Eigen::Vector3d& place) const noexcept;
   void slide(const Eigen::Vector3d& place, const Eigen::Vector3d& last, double limit) noexcept;
