@@ -47,7 +47,9 @@ forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/m
   PATTERN "${include}(model|bem|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
   PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
-  EXCEPT "filters/core/(simd/|mesh/cgal_surface[.]h)")
+  EXCEPT "filters/core/(simd/|mesh/cgal_surface[.]h|haptics/json_reader[.]h)")
+forbid("the header that reads JSON leaves its sources" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
+  PATTERN "${include}haptics/json_reader[.]h" EXCEPT "filters/core/haptics/.*[.]cpp$")
 forbid("CGAL's own header leaves its sources" FILES ${all_core}
   PATTERN "${include}mesh/cgal_surface[.]h" EXCEPT "filters/core/mesh/.*[.]cpp$")
 forbid("CGAL outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
@@ -56,9 +58,9 @@ forbid("OpenMesh outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/
   PATTERN "${include}OpenMesh" EXCEPT "filters/core/mesh/.*[.]cpp$")
 forbid("hidapi outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}hidapi" EXCEPT "filters/core/haptics/hidapi_bus[.]cpp$")
-forbid("JSON outside the source that reads descriptions"
+forbid("JSON outside the header that reads it"
   FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
-  PATTERN "${include}nlohmann" EXCEPT "filters/core/haptics/hid_description[.]cpp$")
+  PATTERN "${include}nlohmann" EXCEPT "filters/core/haptics/json_reader[.]h$")
 forbid("a filter includes an app" FILES ${SOURCE}/filters/vtk/*.h ${SOURCE}/filters/vtk/*.cxx
   PATTERN "${include}(apps|picture|terminal|commands)")
 forbid("a public VTK header includes the core or Eigen" FILES ${SOURCE}/filters/vtk/*/vtk*.h
