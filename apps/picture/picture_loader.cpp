@@ -3,43 +3,20 @@
 
 #include "picture/picture.h"
 
-#include <dlfcn.h>
-#include <unistd.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
-#include <climits>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <stdexcept>
 
+#include "library.h"
+
 namespace palpate::app {
-namespace {
-
-/// Folder of the running program, with a slash at its end.
-std::string programFolder() {
-  char path[PATH_MAX];
-  const ssize_t length = readlink("/proc/self/exe", path, sizeof path);
-  const std::string whole(path, length > 0 ? static_cast<std::size_t>(length) : 0);
-  return whole.substr(0, whole.rfind('/') + 1);
-}
-
-DrawFunction loadDrawFunction() {
-  const std::string library = "libpalpate_picture.so";
-  void* handle = nullptr;
-  for (const std::string& folder : {programFolder() + "../lib/", std::string()}) {
-    handle = dlopen((folder + library).c_str(), RTLD_NOW);
-    if (handle) break;
-  }
-  if (!handle) throw std::runtime_error(std::string("pictures cannot be drawn: ") + dlerror());
-  return reinterpret_cast<DrawFunction>(dlsym(handle, kDrawFunction));
-}
-
-}  // namespace
-
 void drawPicture(const Picture& picture, const std::string& path) {
-  static const DrawFunction draw = loadDrawFunction();
+  static const auto draw = reinterpret_cast<DrawFunction>(
+      loadFunction("libpalpate_picture.so", kDrawFunction, "pictures cannot be drawn"));
   const std::string failure = draw(picture, path);
   if (!failure.empty()) throw std::runtime_error(failure);
 }

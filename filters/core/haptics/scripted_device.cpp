@@ -27,7 +27,7 @@ bool ScriptedDevice::write(const Wrench& wrench) noexcept {
   return true;
 }
 
-RecordingDevice::RecordingDevice(std::unique_ptr<HapticDevice> device, std::size_t mostMoments)
+RecordingDevice::RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments)
     : device_(std::move(device)), mostMoments_(mostMoments) {
   if (!device_) throw std::invalid_argument("there is no device to record");
   recording_.info = device_->info();

@@ -40,7 +40,7 @@ class RecordingDevice final : public HapticDevice {
  public:
   /// @param mostMoments  after which it only passes on.
   /// @throws std::invalid_argument without a device.
-  RecordingDevice(std::unique_ptr<HapticDevice> device, std::size_t mostMoments);
+  RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments);
 
   const DeviceInfo& info() const override { return device_->info(); }
   bool read(DeviceState& state) noexcept override;
@@ -50,7 +50,7 @@ class RecordingDevice final : public HapticDevice {
   const DeviceRecording& recording() const noexcept { return recording_; }
 
  private:
-  std::unique_ptr<HapticDevice> device_;
+  std::shared_ptr<HapticDevice> device_;
   DeviceRecording recording_;
   std::size_t mostMoments_;
 };

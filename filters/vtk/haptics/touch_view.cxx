@@ -46,6 +46,15 @@ void setMapper(vtkActor* actor, vtkAlgorithmOutput* output)
   actor->SetMapper(mapper);
 }
 
+void place(vtkTransform* transform, const Eigen::Vector3d& at, const Eigen::Quaterniond& orientation)
+{
+  const Eigen::AngleAxisd turn(orientation);
+  transform->Identity();
+  transform->Translate(at.data());
+  transform->RotateWXYZ(
+    turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
+}
+
 void setColour(vtkActor* actor, const double colour[3])
 {
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
@@ -54,9 +63,26 @@ void setColour(vtkActor* actor, const double colour[3])
 
 struct TouchView::DrawnTool
 {
-  vtkNew<vtkActor> Probe, GodObject, Force;
-  vtkNew<vtkTransform> ProbePlace, GodObjectPlace, ForcePlace;
-  bool IsPoint = true;
+  struct Part
+  {
+    vtkNew<vtkActor> Actor;
+    vtkNew<vtkTransform> Transform;
+  };
+  std::vector<std::unique_ptr<Part>> Parts;
+  std::function<void(const ToolPose&, RigidPose*)> Place;
+  std::vector<RigidPose> Poses;
+  vtkNew<vtkActor> GodObject, Force;
+  vtkNew<vtkTransform> GodObjectPlace, ForcePlace;
+
+  std::vector<vtkActor*> Actors() const
+  {
+    std::vector<vtkActor*> actors{ this->GodObject, this->Force };
+    for (const auto& part : this->Parts)
+    {
+      actors.push_back(part->Actor);
+    }
+    return actors;
+  }
 };
 
 TouchView::TouchView()
@@ -84,72 +110,72 @@ double TouchView::Diagonal() const
   return this->Bodies.empty() ? 1 : this->Bodies[0]->Mesh->diagonal();
 }
 
-vtkActor* TouchView::BodyActor(int body) const
-{
-  return this->Bodies[body]->Actor;
-}
-
-void TouchView::AddBody(
-  std::shared_ptr<const SurfaceMesh> mesh, const double position[3], const double quaternion[4])
+void TouchView::AddBody(std::shared_ptr<const SurfaceMesh> mesh, const RigidPose& pose)
 {
   auto body = std::make_unique<DrawnBody>();
   body->Mesh = std::move(mesh);
-  convert::setSurface(body->Surface, body->Mesh->points(), body->Mesh->triangles());
+  const Eigen::Matrix3d turn = pose.orientation.toRotationMatrix();
+  body->Rest = (turn * body->Mesh->points()).colwise() + pose.position;
+  body->Normals = turn * body->Mesh->vertexNormals();
+  convert::setSurface(body->Surface, body->Rest, body->Mesh->triangles());
   body->Points->SetDataTypeToDouble();
   body->Points->DeepCopy(body->Surface->GetPoints());
   body->Surface->SetPoints(body->Points);
-  const Eigen::AngleAxisd turn(
-    Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]));
-  body->Place->Translate(position);
-  body->Place->RotateWXYZ(
-    turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(body->Surface);
   normals->SplittingOff();
   normals->ConsistencyOff();
   setMapper(body->Actor, normals->GetOutputPort());
-  body->Actor->SetUserTransform(body->Place);
   setColour(body->Actor, this->Bodies.empty() ? BodyColour : HeldColour);
   this->Bodies.push_back(std::move(body));
 }
 
-void TouchView::AddTool(vtkPolyData* shape)
+void TouchView::AddTool(const ToolLook& look)
 {
   auto tool = std::make_unique<DrawnTool>();
-  tool->IsPoint = shape == nullptr;
   vtkNew<vtkSphereSource> ball;
   ball->SetRadius(BallShare * this->Diagonal());
   ball->SetThetaResolution(16);
   ball->SetPhiResolution(12);
-  if (shape)
+  for (const auto& surface : look.Parts)
   {
+    auto part = std::make_unique<DrawnTool::Part>();
     vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(shape);
+    mapper->SetInputData(surface);
     mapper->ScalarVisibilityOff();
-    tool->Probe->SetMapper(mapper);
-    tool->Probe->GetProperty()->SetOpacity(0.6);
+    part->Actor->SetMapper(mapper);
+    part->Actor->GetProperty()->SetOpacity(0.6);
+    tool->Parts.push_back(std::move(part));
   }
-  else
+  tool->Place = look.Place;
+  if (look.Parts.empty())
   {
-    setMapper(tool->Probe, ball->GetOutputPort());
+    tool->Parts.push_back(std::make_unique<DrawnTool::Part>());
+    setMapper(tool->Parts[0]->Actor, ball->GetOutputPort());
+    tool->Place = [](const ToolPose& pose, RigidPose* poses)
+    { poses[0] = { pose.position, pose.orientation }; };
+  }
+  tool->Poses.resize(tool->Parts.size());
+  for (const auto& part : tool->Parts)
+  {
+    setColour(part->Actor, ToolColour);
+    part->Actor->SetUserTransform(part->Transform);
   }
   setMapper(tool->GodObject, ball->GetOutputPort());
   vtkNew<vtkArrowSource> arrow;
   arrow->SetTipResolution(16);
   arrow->SetShaftResolution(12);
   setMapper(tool->Force, arrow->GetOutputPort());
-  setColour(tool->Probe, ToolColour);
   setColour(tool->GodObject, GodObjectColour);
   setColour(tool->Force, ForceColour);
-  const std::pair<vtkActor*, vtkTransform*> parts[] = { { tool->Probe, tool->ProbePlace },
-    { tool->GodObject, tool->GodObjectPlace }, { tool->Force, tool->ForcePlace } };
-  for (const auto& [actor, place] : parts)
-  {
-    actor->SetUserTransform(place);
-    actor->PickableOff();
-  }
+  tool->GodObject->SetUserTransform(tool->GodObjectPlace);
+  tool->Force->SetUserTransform(tool->ForcePlace);
   tool->GodObject->VisibilityOff();
   tool->Force->VisibilityOff();
+  for (vtkActor* actor : tool->Actors())
+  {
+    actor->PickableOff();
+  }
   this->Tools.push_back(std::move(tool));
 }
 
@@ -173,7 +199,7 @@ void TouchView::SetRenderer(vtkRenderer* renderer)
     }
     for (const auto& tool : this->Tools)
     {
-      for (vtkActor* actor : { tool->Probe.Get(), tool->GodObject.Get(), tool->Force.Get() })
+      for (vtkActor* actor : tool->Actors())
       {
         this->Renderer->RemoveActor(actor);
       }
@@ -196,7 +222,7 @@ void TouchView::AddProps(vtkRenderer* renderer)
   }
   for (const auto& tool : this->Tools)
   {
-    for (vtkActor* actor : { tool->Probe.Get(), tool->GodObject.Get(), tool->Force.Get() })
+    for (vtkActor* actor : tool->Actors())
     {
       renderer->AddActor(actor);
     }
@@ -210,7 +236,7 @@ void TouchView::Deform(int body, const Eigen::Matrix3Xd& displacement)
   DrawnBody& drawn = *this->Bodies[body];
   auto* points = vtkDoubleArray::SafeDownCast(drawn.Points->GetData());
   Eigen::Map<Eigen::Matrix3Xd>(points->GetPointer(0), 3, displacement.cols()) =
-    drawn.Mesh->points() + displacement;
+    drawn.Rest + displacement;
   drawn.Points->Modified();
 }
 
@@ -223,25 +249,22 @@ Eigen::Vector3d TouchView::DeformedPlace(int triangle, const Eigen::Vector3d& ba
     body.Points->GetPoint(body.Mesh->triangles()(k, triangle), corner.data());
     place += barycentric[k] * corner;
   }
-  body.Place->TransformPoint(place.data(), place.data());
   return place;
 }
 
 void TouchView::ShowTool(DrawnTool& tool, const ToolContact& contact, double largestForce)
 {
-  const Eigen::Vector3d& at = contact.pose.position;
-  const Eigen::AngleAxisd turn(contact.pose.orientation);
-  tool.ProbePlace->Identity();
-  tool.ProbePlace->Translate(at.data());
-  tool.ProbePlace->RotateWXYZ(
-    turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
+  tool.Place(contact.pose, tool.Poses.data());
+  for (std::size_t k = 0; k < tool.Parts.size(); ++k)
+  {
+    place(tool.Parts[k]->Transform, tool.Poses[k].position, tool.Poses[k].orientation);
+  }
   const bool onSurface = contact.touching && contact.triangle >= 0;
   Eigen::Vector3d from = contact.staticPoint;
   if (onSurface)
   {
     from = this->DeformedPlace(contact.triangle, contact.barycentric);
-    tool.GodObjectPlace->Identity();
-    tool.GodObjectPlace->Translate(from.data());
+    place(tool.GodObjectPlace, from, Eigen::Quaterniond::Identity());
   }
   tool.GodObject->SetVisibility(onSurface);
   const double force = contact.wrench.force.norm();
@@ -252,13 +275,8 @@ void TouchView::ShowTool(DrawnTool& tool, const ToolContact& contact, double lar
     return;
   }
   const Eigen::Vector3d direction = contact.wrench.force / force;
-  const Eigen::AngleAxisd aim(
-    Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction));
   const double length = ArrowShare * this->Diagonal() * std::min(1.0, force / largestForce);
-  tool.ForcePlace->Identity();
-  tool.ForcePlace->Translate(from.data());
-  tool.ForcePlace->RotateWXYZ(
-    aim.angle() * 180 / EIGEN_PI, aim.axis().x(), aim.axis().y(), aim.axis().z());
+  place(tool.ForcePlace, from, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction));
   tool.ForcePlace->Scale(length, length, length);
 }
 
@@ -277,8 +295,7 @@ void TouchView::ShowLoads(const ContactSnapshot& contact)
     const int node = contact.loadedNodes[i];
     Eigen::Vector3d place;
     body.Points->GetPoint(node, place.data());
-    place += 2e-3 * this->Diagonal() * body.Mesh->vertexNormals().col(node); // above the surface
-    body.Place->TransformPoint(place.data(), place.data());
+    place += 2e-3 * this->Diagonal() * body.Normals.col(node); // above the surface
     const vtkIdType dot = points->InsertNextPoint(place.data());
     dots->InsertNextCell(1, &dot);
   }
@@ -347,16 +364,14 @@ std::vector<int> TouchView::FacingNodes(int body, vtkCamera* camera) const
   Eigen::Vector3d eye, towards;
   camera->GetPosition(eye.data());
   camera->GetDirectionOfProjection(towards.data());
-  drawn.Place->GetLinearInverse()->TransformPoint(eye.data(), eye.data());
-  drawn.Place->GetLinearInverse()->TransformVector(towards.data(), towards.data());
   std::vector<int> nodes;
   for (int v = 0; v < drawn.Mesh->vertexCount(); ++v)
   {
     const Eigen::Vector3d way = camera->GetParallelProjection()
       ? Eigen::Vector3d(-towards)
-      : Eigen::Vector3d(eye - drawn.Mesh->points().col(v));
+      : Eigen::Vector3d(eye - drawn.Rest.col(v));
     // A fifth of a right angle beyond the horizon: deformation turns normals.
-    if (drawn.Mesh->vertexNormals().col(v).dot(way.normalized()) > -0.3)
+    if (drawn.Normals.col(v).dot(way.normalized()) > -0.3)
     {
       nodes.push_back(v);
     }

@@ -4,6 +4,7 @@
 #ifndef palpate_touch_view_h
 #define palpate_touch_view_h
 
+#include "contact/rigid_shape.h"
 #include "haptics/servo_report.h"
 #include "mesh/surface_mesh.h"
 
@@ -11,6 +12,7 @@
 #include "vtkSmartPointer.h"
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,10 +31,17 @@ namespace palpate
 struct DrawnBody
 {
   std::shared_ptr<const SurfaceMesh> Mesh;
-  vtkNew<vtkPolyData> Surface; ///< its points move
+  Eigen::Matrix3Xd Rest, Normals; ///< of the vertices, in the scene's frame
+  vtkNew<vtkPolyData> Surface;    ///< its points move
   vtkNew<vtkPoints> Points;
   vtkNew<vtkActor> Actor;
-  vtkNew<vtkTransform> Place;
+};
+
+/// How a tool is drawn: parts, each in its own frame, and where they are at a pose.
+struct ToolLook
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> Parts; ///< none for a point
+  std::function<void(const ToolPose&, RigidPose*)> Place;
 };
 
 /// What a window shows of a touch: bodies, the tools, their god-objects, the forces on the hand as arrows,
@@ -43,16 +52,14 @@ public:
   TouchView();
   ~TouchView();
 
-  void AddBody(std::shared_ptr<const SurfaceMesh> mesh, const double position[3],
-    const double quaternion[4]);
-  /// @param shape  in the tool's frame; null for a point.
-  void AddTool(vtkPolyData* shape);
+  void AddBody(std::shared_ptr<const SurfaceMesh> mesh, const RigidPose& pose);
+  void AddTool(const ToolLook& look);
   void Clear();
 
   /// Puts all props into a renderer, or takes them out of the last one for a null one.
   void SetRenderer(vtkRenderer* renderer);
 
-  /// @param displacement  3 by #nodes, in the body's frame.
+  /// @param displacement  3 by #nodes, in the scene's frame.
   void Deform(int body, const Eigen::Matrix3Xd& displacement);
   /// @param largestForce  N, of an arrow as long as a quarter of the body.
   void Show(const ServoSnapshot& snapshot, double largestForce);
@@ -66,7 +73,9 @@ public:
   std::vector<int> FacingNodes(int body, vtkCamera* camera) const;
   /// Where a point of the first body is as it is drawn.
   Eigen::Vector3d DeformedPlace(int triangle, const Eigen::Vector3d& barycentric) const;
-  vtkActor* BodyActor(int body) const;
+  vtkActor* BodyActor(int body) const { return this->Bodies[body]->Actor; }
+  vtkPolyData* Surface(int body) const { return this->Bodies[body]->Surface; }
+  int NumberOfBodies() const { return static_cast<int>(this->Bodies.size()); }
   double Diagonal() const;
 
 private:

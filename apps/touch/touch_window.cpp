@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "touch/touch_window.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkDoubleArray.h>
+#include <vtkElasticSurfaceReader.h>
+#include <vtkInteractorStyleHaptic.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "picture/picture.h"
+#include "picture/virtual_display.h"
+#include "touch/window.h"
+
+namespace palpate::app {
+
+void require(bool done, vtkInteractorStyleHaptic* style) {
+  if (!done) throw std::runtime_error(style->GetFailureMessage());
+}
+
+void silence(vtkObject* object) {
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  object->AddObserver(vtkCommand::ErrorEvent, nothing);
+}
+
+vtkSmartPointer<vtkPolyData> readModel(const std::string& path) {
+  vtkNew<vtkElasticSurfaceReader> reader;
+  silence(reader);
+  silence(reinterpret_cast<vtkObject*>(reader->GetExecutive()));
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (*reader->GetFailureMessage()) throw std::runtime_error(reader->GetFailureMessage());
+  return reader->GetOutput();
+}
+
+namespace {
+
+void setDevice(vtkInteractorStyleHaptic* style, const std::string& device) {
+  unsigned vendor = 0, product = 0;
+  if (device == "mouse") return require(style->SetDeviceToMouse(), style);
+  if (device == "simulated") return require(style->SetDeviceToSimulated(), style);
+  if (device.rfind("scripted:", 0) == 0)
+    return require(style->SetDeviceToScript(device.substr(9).c_str()), style);
+  if (device == "hid") return require(style->SetDeviceToHid(0, 0), style);
+  if (std::sscanf(device.c_str(), "hid:%4x:%4x", &vendor, &product) == 2)
+    return require(style->SetDeviceToHid(static_cast<int>(vendor), static_cast<int>(product)),
+                   style);
+  throw std::invalid_argument("there is no device '" + device +
+                              "': choose mouse, scripted:FILE, simulated, hid or hid:VVVV:PPPP");
+}
+
+int deformationMode(const std::string& name) {
+  const char* const names[] = {"all", "visible", "contact", "none"};
+  for (int mode = 0; mode < 4; ++mode)
+    if (name == names[mode]) return mode;
+  return 0;
+}
+
+void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
+  if (!options.scene.empty())
+    require(style->LoadScene(options.scene.c_str()), style);
+  else
+    require(style->SetModel(readModel(options.model)), style);
+  if (options.scene.empty() || options.deviceGiven) setDevice(style, options.device);
+  if (options.toolRadius != 0) require(style->SetToolToSphere(options.toolRadius), style);
+  if (options.friction >= 0) require(style->SetFriction(options.friction), style);
+  if (options.maskRadius >= 0) require(style->SetMaskRadius(options.maskRadius), style);
+  if (options.stiffnessLimit >= 0)
+    require(style->SetRigidStiffness(options.stiffnessLimit), style);
+  if (options.rate != 0) require(style->SetServoRate(options.rate), style);
+  if (!options.deformation.empty()) style->SetDeformation(deformationMode(options.deformation));
+  if (!options.record.empty()) require(style->SetRecordFileName(options.record.c_str()), style);
+}
+
+void writeForces(vtkInteractorStyleHaptic* style, const std::string& path) {
+  vtkNew<vtkDoubleArray> trace;
+  style->GetForceTrace(trace);
+  const std::string unfinished = path + ".part";
+  std::ofstream file(unfinished);
+  file.precision(17);
+  file << "force_x,force_y,force_z,torque_x,torque_y,torque_z\n";
+  for (vtkIdType i = 0; i < trace->GetNumberOfTuples(); ++i)
+    for (int c = 0; c < 6; ++c) file << trace->GetComponent(i, c) << (c < 5 ? "," : "\n");
+  file.close();
+  if (!file || std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    std::remove(unfinished.c_str());
+    throw std::runtime_error(path + " cannot be written");
+  }
+}
+
+void printState(vtkInteractorStyleHaptic* style) {
+  std::cout << style->GetStatus() << "\n";
+  for (int tool = 0; tool < style->GetNumberOfTools(); ++tool) {
+    double force[3], torque[3], at[3];
+    style->GetForce(tool, force);
+    style->GetTorque(tool, torque);
+    style->GetContactPoint(tool, at);
+    std::printf("tool %d   force %.6g %.6g %.6g N   torque %.6g %.6g %.6g N m\n", tool, force[0],
+                force[1], force[2], torque[0], torque[1], torque[2]);
+    if (style->IsTouching(tool)) std::printf("         at %.6g %.6g %.6g\n", at[0], at[1], at[2]);
+  }
+  std::printf("ticks    %lld, %lld left out\n", static_cast<long long>(style->GetNumberOfTicks()),
+              static_cast<long long>(style->GetNumberOfMissedTicks()));
+  std::cout << style->GetTimingTable() << std::flush;
+}
+
+bool hasDisplay() {
+  const char* display = std::getenv("DISPLAY");
+  return display && *display;
+}
+
+void runHeadless(const TouchOptions& options) {
+  std::unique_ptr<VirtualDisplay> display;
+  std::unique_ptr<Window> window;
+  vtkNew<vtkInteractorStyleHaptic> style;
+  silence(style);
+  if (!options.image.empty()) {
+    display = std::make_unique<VirtualDisplay>();
+    window = std::make_unique<Window>(true);
+    window->use(style);
+  }
+  configure(style, options);
+  require(style->RunHeadless(0), style);
+  if (window) window->lookAt(style);
+  require(style->RunHeadless(options.seconds), style);
+  require(style->Stop(), style);
+  if (!options.forces.empty()) writeForces(style, options.forces);
+  if (window) window->write(options.image);
+  printState(style);
+}
+
+/// Ends an interactor after some time.
+struct Clock {
+  std::chrono::steady_clock::time_point end;
+  static void look(vtkObject* caller, unsigned long, void* self, void*) {
+    if (std::chrono::steady_clock::now() >= static_cast<Clock*>(self)->end)
+      static_cast<vtkRenderWindowInteractor*>(caller)->TerminateApp();
+  }
+};
+
+}  // namespace
+
+void runWindow(const TouchOptions& options) {
+  if (options.plan) {
+    vtkNew<vtkInteractorStyleHaptic> style;
+    silence(style);
+    configure(style, options);
+    const std::string plan = style->GetEvaluationPlan();
+    require(!plan.empty(), style);
+    std::cout << plan << std::flush;
+    return;
+  }
+  if (options.headless) return runHeadless(options);
+  if (!hasDisplay())
+    throw std::runtime_error(
+        "there is no display for a window: set DISPLAY, or run with --headless --seconds N");
+  Window window(false);
+  vtkNew<vtkInteractorStyleHaptic> style;
+  silence(style);
+  window.use(style);
+  configure(style, options);
+  window.interactor()->Initialize();
+  require(style->Start(), style);
+  window.lookAt(style);
+  Clock clock{std::chrono::steady_clock::now() +
+              std::chrono::milliseconds(static_cast<long>(1000 * options.seconds))};
+  vtkNew<vtkCallbackCommand> look;
+  look->SetCallback(&Clock::look);
+  look->SetClientData(&clock);
+  if (options.seconds > 0) window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
+  window.interactor()->Start();
+  require(style->Stop(), style);
+  if (!options.forces.empty()) writeForces(style, options.forces);
+  printState(style);
+}
+
+}  // namespace palpate::app
+
+/// The library's one entry.
+extern "C" __attribute__((visibility("default"))) std::string palpate_touch(
+    const palpate::app::TouchOptions& options) {
+  try {
+    if (options.grasp)
+      palpate::app::runGrasp(options);
+    else if (options.lab)
+      palpate::app::runLab(options);
+    else
+      palpate::app::runWindow(options);
+    return {};
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "touch/window.h"
+
+#include <vtkCamera.h>
+#include <vtkInteractorStyleHaptic.h>
+#include <vtkPNGWriter.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "picture/picture.h"
+
+namespace palpate::app {
+
+Window::Window(bool offScreen) {
+  window_->SetOffScreenRendering(offScreen);
+  window_->SetMultiSamples(0);
+  window_->SetSize(1000, 750);
+  window_->SetWindowName("Palpate");
+  renderer_->SetBackground(1, 1, 1);
+  window_->AddRenderer(renderer_);
+  interactor_->SetRenderWindow(window_);
+}
+
+Window::~Window() {
+  interactor_->SetInteractorStyle(nullptr);
+}
+
+void Window::use(vtkInteractorStyleHaptic* style) {
+  interactor_->SetInteractorStyle(style);
+}
+
+void Window::lookAt(vtkInteractorStyleHaptic* style) {
+  const std::array<double, 3> towards = directionOntoFreeSurface(style->GetTouchedModel());
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetFocalPoint(0, 0, 0);
+  camera->SetPosition(towards.data());
+  const double length = std::hypot(towards[0], towards[1], towards[2]);
+  const bool fromAbove = std::abs(towards[2]) > 0.95 * length;
+  camera->SetViewUp(0, fromAbove ? 1 : 0, fromAbove ? 0 : 1);
+  renderer_->ResetCamera(style->GetDeformedSurface()->GetBounds());
+}
+
+void Window::render() {
+  window_->Render();
+}
+
+void Window::write(const std::string& path) {
+  render();
+  vtkNew<vtkWindowToImageFilter> grab;
+  grab->SetInput(window_);
+  grab->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  const std::string unfinished = path + ".part.png";
+  writer->SetFileName(unfinished.c_str());
+  writer->SetInputConnection(grab->GetOutputPort());
+  writer->Write();
+  if (writer->GetErrorCode() != 0 || std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    std::remove(unfinished.c_str());
+    throw std::runtime_error(path + " cannot be written");
+  }
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkInteractorStyleHaptic;
+class vtkObject;
+class vtkPolyData;
+class vtkRenderer;
+class vtkRenderWindow;
+class vtkRenderWindowInteractor;
+
+namespace palpate::app {
+
+/// A render window with an interactor, for the eye or for pictures.
+class Window {
+ public:
+  explicit Window(bool offScreen);
+  ~Window();
+  void use(vtkInteractorStyleHaptic* style);
+  /// Onto the free part of what the style touches.
+  void lookAt(vtkInteractorStyleHaptic* style);
+  void render();
+  /// @throws std::runtime_error if the file cannot be written.
+  void write(const std::string& path);
+  vtkRenderWindowInteractor* interactor() { return interactor_; }
+  vtkRenderer* renderer() { return renderer_; }
+
+ private:
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+};
+
+/// @throws std::runtime_error with the style's sentence unless `done`.
+void require(bool done, vtkInteractorStyleHaptic* style);
+/// Keeps an object from printing its errors: they are thrown.
+void silence(vtkObject* object);
+/// @throws std::runtime_error with the reader's sentence.
+vtkSmartPointer<vtkPolyData> readModel(const std::string& path);
+
+}  // namespace palpate::app

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef palpate_haptic_touch_h
+#define palpate_haptic_touch_h
+
+#include "haptics/scripted_device.h"
+#include "haptics/servo_loop.h"
+#include "haptics/touch_session.h"
+#include "mouse_device.h"
+#include "touch_view.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace palpate
+{
+/// A scene's models, devices and servo loop, without anything drawn. What changes the scene stops the loop;
+/// settings that the header says take effect at once do not. Throws what a user can mend, with a sentence.
+class HapticTouch
+{
+public:
+  HapticTouch();
+  ~HapticTouch();
+
+  const palpate::Scene& Scene() const { return this->Described; }
+  void SetModel(vtkPolyData* model);
+  void LoadScene(const std::string& fileName);
+  std::string EvaluationPlan();
+  /// @param radius  of a ball; 0 for a point.
+  void SetTool(double radius);
+  void SetDevice(const SceneDevice& device);
+  void SetRate(double rate);
+  void SetDeformation(DeformationRows rows);
+  void SetRecordFile(const std::string& fileName) { this->RecordFile = fileName; }
+
+  ///@{ At once.
+  void SetFriction(double mu);
+  void SetMaskRadius(double radius);
+  void SetStiffnessScale(double scale);
+  void SetRigidStiffness(double stiffness);
+  void Reset();
+  ///@}
+
+  /// Opens the devices and makes model and loop, if that is not done.
+  void Prepare();
+  void Start();
+  void Stop();
+  bool IsRunning() const { return this->Loop && this->Loop->isRunning(); }
+  void RunHeadless(double seconds);
+  /// @throws std::runtime_error if the file cannot be written.
+  void WriteRecording();
+
+  /// Takes the newest snapshot. @return whether there is one.
+  bool Update();
+  void ComputeFrame(const std::vector<std::vector<int>>& visible);
+  const Eigen::Matrix3Xd& Displacement(int body) const;
+
+  const std::vector<SceneBody>& Bodies() const { return this->Loaded; }
+  const ToolLook& Look(int tool) const { return this->Looks[tool]; }
+  const ServoSnapshot& Snapshot() const { return this->Latest; }
+  const ToolContact& Contact(int tool) const;
+  Wrench Rendered(int tool) const;
+  std::string Fault(int tool) const;
+  std::string Status() const;
+  double MaskRadius() const;
+  /// Of the vertices of the first body, N/m; NaN where there is none.
+  Eigen::VectorXd StiffnessNorms() const;
+  /// The largest force so far, N.
+  double LargestForce() const { return this->Largest; }
+
+  std::int64_t Ticks() const;
+  std::int64_t MissedTicks() const;
+  double TickTime(double share) const;
+  std::string TimingTable() const;
+  std::vector<Wrench> ForceTrace() const;
+
+  bool HasMouse() const { return this->Pointer != nullptr; }
+  /// @throws std::logic_error if no tool is the mouse's.
+  MouseDevice& Mouse();
+  const ToolPose& MousePose() const { return this->PointerPose; }
+  void SetMousePose(const ToolPose& pose) { this->PointerPose = pose; }
+
+private:
+  void Change();
+  std::shared_ptr<HapticDevice> Open(const SceneDevice& device);
+  ToolLook LookOf(const SceneTool& tool, std::shared_ptr<const SurfaceMesh>& mesh) const;
+  std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
+  double MeanEdge() const;
+
+  palpate::Scene Described;
+  std::vector<SceneBody> Loaded;
+  std::string RecordFile;
+  std::vector<ToolLook> Looks;
+  std::shared_ptr<MouseDevice> Pointer;
+  ToolPose PointerPose;
+  std::shared_ptr<ScriptedDevice> FirstScript;
+  std::shared_ptr<RecordingDevice> Recorder;
+  std::unique_ptr<TouchSession> Session;
+  std::unique_ptr<ServoLoop> Loop;
+  ServoSnapshot Latest;
+  Eigen::Matrix3Xd None;
+  double Largest = 1e-12;
+};
+} // namespace palpate
+
+#endif

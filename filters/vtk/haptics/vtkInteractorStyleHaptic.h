@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class vtkInteractorStyleHaptic
+ * @brief touches an elastic surface in a render window
+ *
+ * An interactor style for any vtkRenderWindowInteractor. It owns the devices and the servo loop, which
+ * evaluates contact forces at its own rate whatever the window does, and at the window's rate draws what
+ * the latest tick left: the deformed surface, the tools, the god-object of a point, the force on the hand
+ * as an arrow, the nodes that bear it, a status line.
+ *
+ * By default the mouse touches with a point: the left button, on the surface, brings the probe there and
+ * presses it in by PressDepth; dragging moves it in the plane of the view, the wheel deeper or out, with
+ * Control it adheres and pulls. The right button turns the camera, the middle one moves it. A scene file
+ * (LoadScene) has other devices, tools and effects; its format is told in core/haptics/scene.h.
+ *
+ * Keys: [ and ] less and more friction, , and . a smaller and larger mask, - and + softer and stiffer,
+ * w wireframe, s surface, v the stiffness as colours, n lets all contact begin anew, r resets camera and
+ * contact.
+ *
+ * D. L. James and D. K. Pai 2001, sections 6 and 7, figures 8 and 9. Needs the Green's functions of
+ * vtkBoundaryElementGreensFunctions. Methods that can fail return false and leave a sentence in
+ * GetFailureMessage().
+ */
+
+#ifndef vtkInteractorStyleHaptic_h
+#define vtkInteractorStyleHaptic_h
+
+#include "PalpateHapticsModule.h"
+#include "vtkInteractorStyleTrackballCamera.h"
+
+#include <memory>
+#include <string>
+
+class vtkDoubleArray;
+class vtkPolyData;
+
+class PALPATEHAPTICS_EXPORT vtkInteractorStyleHaptic : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static vtkInteractorStyleHaptic* New();
+  vtkTypeMacro(vtkInteractorStyleHaptic, vtkInteractorStyleTrackballCamera);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * Events that an observer hears of from Update(): a tool begins or ends to touch, a device or solve
+   * fails (GetFault tells how).
+   */
+  enum HapticEvents
+  {
+    ContactBeginEvent = 11001,
+    ContactEndEvent,
+    FaultEvent
+  };
+
+  /**
+   * The surface to touch, with its Green's functions. Stops.
+   */
+  bool SetModel(vtkPolyData* model);
+  /**
+   * Models, tools, devices and effects from a JSON file, in place of all that was set. Stops.
+   */
+  bool LoadScene(const char* fileName);
+  /**
+   * What a tick and a frame of the scene will compute, as a table. Empty on failure.
+   */
+  std::string GetEvaluationPlan();
+
+  ///@{
+  /**
+   * The first tool: a point (default), or a ball of a radius in the unit of the points. Stops.
+   */
+  bool SetToolToPoint();
+  bool SetToolToSphere(double radius);
+  ///@}
+
+  ///@{
+  /**
+   * What moves the first tool: the mouse (default); a recording; a simulated mass in a resting hand; a HID
+   * device by its numbers, or the first there is for zeros. Stops.
+   */
+  bool SetDeviceToMouse();
+  bool SetDeviceToScript(const char* fileName);
+  bool SetDeviceToSimulated();
+  bool SetDeviceToHid(int vendor, int product);
+  ///@}
+
+  ///@{
+  /**
+   * Coulomb's mu, >= 0 (default 0.3). Takes effect at once.
+   */
+  bool SetFriction(double mu);
+  double GetFriction();
+  ///@}
+
+  ///@{
+  /**
+   * Radius of a point's pressure mask, in the unit of the points (default: two mean edges of the model).
+   * Takes effect at once; the vertices' stiffnesses are computed anew, Green's functions are not.
+   */
+  bool SetMaskRadius(double radius);
+  double GetMaskRadius();
+  ///@}
+
+  ///@{
+  /**
+   * By what all forces are scaled, positive (default 1). Takes effect at once.
+   */
+  bool SetStiffnessScale(double scale);
+  double GetStiffnessScale();
+  ///@}
+
+  ///@{
+  /**
+   * Most stiffness that a point shows, N/m; 0 (default) for the stiffest free vertex. Takes effect at once.
+   */
+  bool SetRigidStiffness(double stiffness);
+  double GetRigidStiffness();
+  ///@}
+
+  ///@{
+  /**
+   * Whose displacements a frame computes: all (default), those of vertices that face the camera, those
+   * that bear a force, none.
+   */
+  enum DeformationModes
+  {
+    DEFORM_ALL = 0,
+    DEFORM_VISIBLE = 1,
+    DEFORM_CONTACT = 2,
+    DEFORM_NONE = 3
+  };
+  void SetDeformation(int mode);
+  int GetDeformation();
+  ///@}
+
+  ///@{
+  /**
+   * Ticks a second, 250 to 10000 (default 1000). Stops.
+   */
+  bool SetServoRate(double rate);
+  double GetServoRate();
+  ///@}
+
+  ///@{
+  /**
+   * How deep the mouse presses at first, in diagonals of the body (default 0.02).
+   */
+  vtkSetClampMacro(PressDepth, double, 0.0, 1.0);
+  vtkGetMacro(PressDepth, double);
+  ///@}
+
+  ///@{
+  /**
+   * Frames a second that a running style asks of the interactor (default 60).
+   */
+  vtkSetClampMacro(FrameRate, double, 1.0, 240.0);
+  vtkGetMacro(FrameRate, double);
+  ///@}
+
+  ///@{
+  /**
+   * A file that Stop writes the first device's motion to, whole or not at all; none by default. For
+   * SetDeviceToScript.
+   */
+  bool SetRecordFileName(const char* fileName);
+  ///@}
+
+  /**
+   * Starts the devices, the servo loop and, with an interactor, the frames.
+   */
+  bool Start();
+  /**
+   * Fades all forces and stops; false if a recording could not be written.
+   */
+  bool Stop();
+  bool IsRunning();
+
+  /**
+   * Ticks on virtual time instead, from where the last call ended, as fast as they compute: with scripted
+   * or simulated devices the same each time, bit for bit. Then updates.
+   */
+  bool RunHeadless(double seconds);
+
+  /**
+   * Takes over the latest tick's state: points, props, events. The frames of a running style call it.
+   */
+  void Update();
+
+  /**
+   * Puts the mouse's probe at a place of the scene, as dragging does; `adheres` to pull. For scripts and tests.
+   */
+  bool MoveProbe(double x, double y, double z, bool adheres = false);
+
+  ///@{
+  /**
+   * The state at the last Update, of one tool.
+   */
+  int GetNumberOfTools();
+  bool IsTouching(int tool = 0);
+  bool IsSliding(int tool = 0);
+  /** What the model does to the tool, before the limits of safety, N. */
+  void GetForce(int tool, double force[3]);
+  /** About the tool's position, N m. */
+  void GetTorque(int tool, double torque[3]);
+  /** What the device rendered, in its own frame, N. */
+  void GetRenderedForce(int tool, double force[3]);
+  void GetToolPosition(int tool, double position[3]);
+  /** On the undeformed surface. */
+  void GetContactPoint(int tool, double point[3]);
+  /** The last fault, in words; empty without one. */
+  std::string GetFault(int tool = 0);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last solve: its residual relative to the forces, contacts that bear a force.
+   */
+  double GetResidual();
+  int GetNumberOfContacts();
+  ///@}
+
+  ///@{
+  /**
+   * Of the loop so far: ticks, ticks left out, and the computing time that a share of the ticks does not
+   * exceed, s. The table tells more.
+   */
+  vtkIdType GetNumberOfTicks();
+  vtkIdType GetNumberOfMissedTicks();
+  double GetTickTime(double share);
+  std::string GetTimingTable();
+  ///@}
+
+  /**
+   * A body as it is drawn; its points move with each Update.
+   */
+  vtkPolyData* GetDeformedSurface(int body = 0);
+
+  /**
+   * Force and torque on the hand, six components, a tuple for each moment that the first device, a
+   * scripted one, has replayed. Nothing for other devices, or while it runs.
+   */
+  void GetForceTrace(vtkDoubleArray* trace);
+
+  std::string GetStatus();
+  vtkGetMacro(FailureMessage, std::string);
+
+  // The style's part in the interactor's events.
+  void SetInteractor(vtkRenderWindowInteractor* interactor) override;
+  void OnTimer() override;
+  void OnMouseMove() override;
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override;
+  void OnMouseWheelForward() override;
+  void OnMouseWheelBackward() override;
+  void OnChar() override;
+
+protected:
+  vtkInteractorStyleHaptic();
+  ~vtkInteractorStyleHaptic() override;
+
+private:
+  vtkInteractorStyleHaptic(const vtkInteractorStyleHaptic&) = delete;
+  void operator=(const vtkInteractorStyleHaptic&) = delete;
+
+  struct Touch;
+  template <class Action>
+  bool Try(const Action& action);
+  void Prepare();
+  void ShowIn(vtkRenderer* renderer);
+  void Announce();
+  void Drag();
+  void TurnWheel(double notches);
+  void Render();
+
+  std::unique_ptr<Touch> Internals;
+  double PressDepth = 0.02, FrameRate = 60;
+  std::string FailureMessage;
+};
+
+#endif
