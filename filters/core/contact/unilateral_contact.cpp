@@ -288,6 +288,13 @@ Wrench UnilateralContact::wrench(int obstacle) const noexcept {
   return wrench;
 }
 
+Eigen::Vector3d UnilateralContact::force(int obstacle) const noexcept {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (int contact = 0; contact < solver_.count(); ++contact)
+    if (anchors_[contact].obstacle == obstacle) force -= stiffnessScale_ * solver_.force(contact);
+  return force;
+}
+
 UnilateralContact::Watched UnilateralContact::watched(int contact) const noexcept {
   const Anchor& anchor = anchors_[contact];
   return {anchor.obstacle,

@@ -67,6 +67,8 @@ class UnilateralContact {
 
   /// What the surface does to an obstacle, about its position. N, N m.
   Wrench wrench(int obstacle) const noexcept;
+  /// Its force alone, N.
+  Eigen::Vector3d force(int obstacle) const noexcept;
 
   int capacity() const { return solver_.compliance().capacity(); }
   /// Vertices watched, numbered in no order that lasts beyond a step.

@@ -31,22 +31,28 @@ Eigen::Quaterniond towardsThumb(double angle) noexcept {
   return turn(angle, Vector3d::UnitY());
 }
 
+struct Bone {
+  Capsule capsule;
+  Eigen::Quaterniond frame;  ///< the capsule runs along its -z
+};
+using Bones = std::array<Bone, kHandCapsuleCount>;
+
 /// A chain of bones that grows at its end.
 struct Chain {
   Vector3d end;
   Eigen::Quaterniond frame;
 
-  Capsule grow(const Eigen::Quaterniond& joint, double length, double radius) noexcept {
+  Bone grow(const Eigen::Quaterniond& joint, double length, double radius) noexcept {
     const Vector3d begin = end;
     frame = frame * joint;
     end += length * (frame * kAlong);
-    return {begin, end, radius};
+    return {{begin, end, radius}, frame};
   }
 };
 
 /// Right hand of unit length with the wrist at the origin.
-HandCapsules unitHand(const std::array<double, ToolPose::kMostJoints>& q) noexcept {
-  HandCapsules bones;
+Bones unitHand(const std::array<double, ToolPose::kMostJoints>& q) noexcept {
+  Bones bones;
   const Eigen::Quaterniond wrist = towardsThumb(q[WristAbduction]) * flexed(q[WristFlexion]);
 
   Chain thumb{wrist * Vector3d(hand::kThumbBase[0], 0, -hand::kThumbBase[1]), wrist};
@@ -69,7 +75,8 @@ HandCapsules unitHand(const std::array<double, ToolPose::kMostJoints>& q) noexce
     const double across = hand::kKnuckles[f];
     const Vector3d knuckle(across, 0, -std::sqrt(length[0] * length[0] - across * across));
     finger.end = finger.frame * knuckle;
-    bones[15 + f] = {Vector3d::Zero(), finger.end, hand::kFingerRadii[0]};
+    bones[15 + f] = {{Vector3d::Zero(), finger.end, hand::kFingerRadii[0]},
+                     finger.frame * Eigen::Quaterniond::FromTwoVectors(kAlong, knuckle)};
     bones[3 + 3 * f] =
         finger.grow(towardsThumb(spread[f]) * flexed(angle[0]), length[1], hand::kFingerRadii[1]);
     bones[4 + 3 * f] = finger.grow(flexed(angle[1]), length[2], hand::kFingerRadii[2]);
@@ -87,14 +94,30 @@ HandModel::HandModel(double length, HandSide side) : length_(length), side_(side
 }
 
 HandCapsules HandModel::capsules(const ToolPose& pose) const noexcept {
-  HandCapsules bones = unitHand(pose.joints);
+  HandCapsules capsules;
+  const Bones bones = unitHand(pose.joints);
   const Vector3d size(side_ == HandSide::Right ? length_ : -length_, length_, length_);
-  for (Capsule& bone : bones) {
-    bone.begin = pose.position + pose.orientation * bone.begin.cwiseProduct(size);
-    bone.end = pose.position + pose.orientation * bone.end.cwiseProduct(size);
-    bone.radius *= length_;
+  for (int i = 0; i < kHandCapsuleCount; ++i) {
+    const Capsule& bone = bones[i].capsule;
+    capsules[i] = {pose.position + pose.orientation * bone.begin.cwiseProduct(size),
+                   pose.position + pose.orientation * bone.end.cwiseProduct(size),
+                   bone.radius * length_};
   }
-  return bones;
+  return capsules;
+}
+
+HandBonePoses HandModel::bonePoses(const ToolPose& pose) const noexcept {
+  HandBonePoses poses;
+  const Bones bones = unitHand(pose.joints);
+  const double mirror = side_ == HandSide::Right ? 1 : -1;  // in the plane x = 0
+  for (int i = 0; i < kHandCapsuleCount; ++i) {
+    const Eigen::Quaterniond& frame = bones[i].frame;
+    const Vector3d begin = bones[i].capsule.begin.cwiseProduct(Vector3d(mirror, 1, 1));
+    poses[i] = {pose.position + pose.orientation * (length_ * begin),
+                pose.orientation * Eigen::Quaterniond(frame.w(), frame.x(), mirror * frame.y(),
+                                                      mirror * frame.z())};
+  }
+  return poses;
 }
 
 }  // namespace palpate

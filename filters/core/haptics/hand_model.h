@@ -6,6 +6,7 @@
 #include <array>
 #include <Eigen/Core>
 
+#include "contact/rigid_shape.h"
 #include "haptics/haptic_device.h"
 
 namespace palpate {
@@ -50,6 +51,9 @@ struct Capsule {
 constexpr int kHandCapsuleCount = 19;
 using HandCapsules = std::array<Capsule, kHandCapsuleCount>;
 
+/// Where the bones are: each begins at its own origin and runs along -z, and turns with its joints.
+using HandBonePoses = std::array<RigidPose, kHandCapsuleCount>;
+
 enum class HandSide { Left, Right };
 
 /// Forward kinematics of a hand. Its frame is the forearm's at the wrist: fingers along -z, the
@@ -64,6 +68,9 @@ class HandModel {
   ///              whose lengths are metres.
   /// @return the bones in that frame. Allocates nothing.
   HandCapsules capsules(const ToolPose& pose) const noexcept;
+
+  /// The same as motions of the bones, whose lengths and radii are those of the flat hand.
+  HandBonePoses bonePoses(const ToolPose& pose) const noexcept;
 
   double length() const noexcept { return length_; }
   HandSide side() const noexcept { return side_; }

@@ -90,6 +90,7 @@ void PointTouch::reset() noexcept {
 ContactSnapshot PointTouch::makeSnapshot() const {
   ContactSnapshot snapshot;
   snapshot.tools.resize(tools_.size());
+  snapshot.loadedBodies.resize(slotOfNode_.size(), 0);
   snapshot.loadedNodes.resize(slotOfNode_.size());
   snapshot.loads.resize(slotOfNode_.size());
   return snapshot;

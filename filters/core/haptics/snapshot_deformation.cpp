@@ -9,6 +9,28 @@
 
 namespace palpate {
 
+SnapshotTractions snapshotTractions(const GreensFunctions& greens, const ContactSnapshot& snapshot,
+                                    int body, const Eigen::Matrix3d& orientation,
+                                    double stiffnessScale) {
+  std::vector<int> nodes;
+  const auto deforms = [&](int i) {
+    return snapshot.loadedBodies[i] == body && !greens.isFixed(snapshot.loadedNodes[i]);
+  };
+  for (int i = 0; i < snapshot.loadedCount; ++i)
+    if (deforms(i)) nodes.push_back(snapshot.loadedNodes[i]);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * nodes.size());
+  for (int i = 0; i < snapshot.loadedCount; ++i) {
+    if (!deforms(i)) continue;
+    const int node = snapshot.loadedNodes[i];
+    const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+    values.segment<3>(3 * place) +=
+        orientation.transpose() * snapshot.loads[i] / (stiffnessScale * greens.vertexArea(node));
+  }
+  return {std::move(nodes), std::move(values)};
+}
+
 SnapshotDeformation::SnapshotDeformation(std::shared_ptr<const GreensFunctions> greens, int body,
                                          const Eigen::Quaterniond& orientation)
     : greens_(std::move(greens)), body_(body), orientation_(orientation.toRotationMatrix()) {
@@ -17,49 +39,41 @@ SnapshotDeformation::SnapshotDeformation(std::shared_ptr<const GreensFunctions> 
 }
 
 std::vector<int> SnapshotDeformation::loadedNodes(const ContactSnapshot& snapshot) const {
-  std::vector<int> nodes;
-  for (int i = 0; i < snapshot.loadedCount; ++i)
-    if (snapshot.loadedBodies[i] == body_ && !greens_->isFixed(snapshot.loadedNodes[i]))
-      nodes.push_back(snapshot.loadedNodes[i]);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+  return snapshotTractions(*greens_, snapshot, body_, orientation_, 1).nodes;
 }
 
-/// The loaded nodes and their tractions.
-void SnapshotDeformation::collect(const ContactSnapshot& snapshot, double stiffnessScale) {
-  nodes_ = loadedNodes(snapshot);
-  tractions_.setZero(3 * nodes_.size());
-  for (int i = 0; i < snapshot.loadedCount; ++i) {
-    const int node = snapshot.loadedNodes[i];
-    if (snapshot.loadedBodies[i] != body_ || greens_->isFixed(node)) continue;
-    const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node) - nodes_.begin();
-    tractions_.segment<3>(3 * place) +=
-        orientation_.transpose() * snapshot.loads[i] / (stiffnessScale * greens_->vertexArea(node));
-  }
+void SnapshotDeformation::requireNodes(const std::vector<int>& nodes) const {
+  for (int node : nodes)
+    if (node < 0 || node >= greens_->nodeCount())
+      throw std::invalid_argument("there is no node " + std::to_string(node) + " to deform");
 }
 
 void SnapshotDeformation::computeAll(const ContactSnapshot& snapshot, double stiffnessScale) {
-  collect(snapshot, stiffnessScale);
+  const auto [nodes, tractions] =
+      snapshotTractions(*greens_, snapshot, body_, orientation_, stiffnessScale);
   displacement_.setZero();
-  greens_->accumulate(nodeList(nodes_), tractions_, displacement_.reshaped());
+  greens_->accumulate(nodeList(nodes), tractions, displacement_.reshaped());
   for (int node = 0; node < greens_->nodeCount(); ++node)
     if (greens_->isFixed(node)) displacement_.col(node).setZero();
   if (!orientation_.isIdentity(0)) displacement_ = orientation_ * displacement_;
 }
 
-void SnapshotDeformation::computeAt(const std::vector<int>& nodes, const ContactSnapshot& snapshot,
+void SnapshotDeformation::computeAt(const std::vector<int>& rows, const ContactSnapshot& snapshot,
                                     double stiffnessScale) {
-  for (int node : nodes)
-    if (node < 0 || node >= greens_->nodeCount())
-      throw std::invalid_argument("there is no node " + std::to_string(node) + " to deform");
-  collect(snapshot, stiffnessScale);
-  Eigen::VectorXd at = Eigen::VectorXd::Zero(3 * nodes.size());
-  greens_->accumulate(nodeList(nodes_), tractions_, nodeList(nodes), at);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    displacement_.col(nodes[i]) = greens_->isFixed(nodes[i])
-                                      ? Eigen::Vector3d::Zero()
-                                      : Eigen::Vector3d(orientation_ * at.segment<3>(3 * i));
+  requireNodes(rows);
+  const auto [nodes, tractions] =
+      snapshotTractions(*greens_, snapshot, body_, orientation_, stiffnessScale);
+  Eigen::VectorXd at = Eigen::VectorXd::Zero(3 * rows.size());
+  greens_->accumulate(nodeList(nodes), tractions, nodeList(rows), at);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    displacement_.col(rows[i]) = greens_->isFixed(rows[i])
+                                     ? Eigen::Vector3d::Zero()
+                                     : Eigen::Vector3d(orientation_ * at.segment<3>(3 * i));
+}
+
+void SnapshotDeformation::clearAt(const std::vector<int>& nodes) {
+  requireNodes(nodes);
+  for (int node : nodes) displacement_.col(node).setZero();
 }
 
 }  // namespace palpate

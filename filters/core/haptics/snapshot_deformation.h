@@ -12,6 +12,16 @@
 
 namespace palpate {
 
+/// The tractions of a snapshot on one body.
+struct SnapshotTractions {
+  std::vector<int> nodes;  ///< free ones under a force, ascending, each once
+  Eigen::VectorXd values;  ///< 3 nodes, in the body's frame, Pa
+};
+/// @param stiffnessScale  by which the model scales its forces: those that deform are without it.
+SnapshotTractions snapshotTractions(const GreensFunctions& greens, const ContactSnapshot& snapshot,
+                                    int body, const Eigen::Matrix3d& orientation,
+                                    double stiffnessScale);
+
 /// The deformed surface that belongs to a snapshot of its contacts, for the slower thread that
 /// draws it: u = sum of Xi f / a over the nodes under a force, at the rows that are asked for
 /// ([JP01] section 4.3).
@@ -31,6 +41,9 @@ class SnapshotDeformation {
   /// @throws std::invalid_argument for a node out of range.
   void computeAt(const std::vector<int>& nodes, const ContactSnapshot& snapshot,
                  double stiffnessScale = 1);
+  /// Lets nodes be where they are undeformed.
+  /// @throws std::invalid_argument for a node out of range.
+  void clearAt(const std::vector<int>& nodes);
   /// The nodes under a force, without repetition.
   std::vector<int> loadedNodes(const ContactSnapshot& snapshot) const;
 
@@ -38,13 +51,11 @@ class SnapshotDeformation {
   const Eigen::Matrix3Xd& displacement() const { return displacement_; }
 
  private:
-  void collect(const ContactSnapshot& snapshot, double stiffnessScale);
+  void requireNodes(const std::vector<int>& nodes) const;
 
   std::shared_ptr<const GreensFunctions> greens_;
   int body_;
   Eigen::Matrix3d orientation_;
-  std::vector<int> nodes_;
-  Eigen::VectorXd tractions_;  ///< 3 nodes_, in the body's frame, Pa
   Eigen::Matrix3Xd displacement_;
 };
 

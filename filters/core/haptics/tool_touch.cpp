@@ -57,6 +57,10 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
   for (int t = 0; t < toolCount(); ++t) {
     Wrench& sum = wrenches[t] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (int part = 0; part < tools_[t].tool->partCount(); ++part) {
+      if (!torques_) {
+        sum.force += contact_.force(tools_[t].firstPart + part);
+        continue;
+      }
       const Wrench wrench = partWrench(t, part);
       const Eigen::Vector3d lever = poses_[tools_[t].firstPart + part].position - poses[t].position;
       sum.force += wrench.force;
@@ -134,8 +138,9 @@ void ToolTouch::describe(ContactSnapshot& snapshot) const noexcept {
       middle += force * contact_.restPlace(i);
       weight += force;
       seen.wrench.force -= watched.force;
-      seen.wrench.torque -=
-          (contact_.restPlace(i) + watched.displacement - seen.hapticPoint).cross(watched.force);
+      if (torques_)
+        seen.wrench.torque -=
+            (contact_.restPlace(i) + watched.displacement - seen.hapticPoint).cross(watched.force);
     }
     seen.touching = weight > 0;
     if (seen.touching) seen.staticPoint = middle / weight;

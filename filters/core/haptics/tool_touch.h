@@ -41,6 +41,8 @@ class ToolTouch final : public TouchModel {
   /// Coulomb's mu of all tools, from the next step on.
   /// @param friction  >= 0.
   void setFriction(double friction) noexcept;
+  /// Whether torques are computed, as they are at first; otherwise they are zero, in snapshots too.
+  void setTorques(bool computed) noexcept { torques_ = computed; }
   /// @param scale  of all forces, positive.
   void setStiffnessScale(double scale) noexcept;
 
@@ -59,6 +61,7 @@ class ToolTouch final : public TouchModel {
   std::vector<RigidPose> poses_;  ///< of all obstacles
   UnilateralContact contact_;
   ContactCertificate certificate_;
+  bool torques_ = true;
 };
 
 }  // namespace palpate

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/touch_session.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "contact/mesh_shape.h"
+#include "haptics/hand_tool.h"
+#include "haptics/point_touch.h"
+#include "haptics/tool_touch.h"
+#include "mesh/surface_point.h"
+
+namespace palpate {
+namespace {
+
+/// Green's functions answer to loads on the surface, and gravity acts within.
+void requireNoGravity(const SceneEffects& effects) {
+  if (!effects.gravity.isZero(0))
+    throw std::invalid_argument(
+        "effects.gravity must be [0, 0, 0]: the stored Green's functions answer to loads on the "
+        "surface alone, and gravity acts within the body");
+}
+
+void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
+  if (bodies.size() != scene.models.size())
+    throw std::invalid_argument("the scene has " + std::to_string(scene.models.size()) +
+                                " models, but there are " + std::to_string(bodies.size()));
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].greens || !bodies[i].mesh)
+      throw std::invalid_argument("the scene's model " + std::to_string(i) +
+                                  " has no surface or no Green's functions");
+}
+
+std::shared_ptr<const TouchTool> toolOf(const SceneTool& tool,
+                                        const std::shared_ptr<const SurfaceMesh>& mesh) {
+  const auto rigid = [](std::shared_ptr<const RigidShape> shape) {
+    return std::make_shared<RigidTouchTool>(std::move(shape));
+  };
+  switch (tool.shape) {
+    case ToolShape::Sphere:
+      return rigid(std::make_shared<SphereShape>(tool.radius));
+    case ToolShape::Capsule:
+      return rigid(std::make_shared<CapsuleShape>(
+          Eigen::Vector3d::Zero(), tool.length * Eigen::Vector3d::UnitZ(), tool.radius));
+    case ToolShape::Plane:
+      return rigid(std::make_shared<PlaneShape>());
+    case ToolShape::Mesh:
+      if (!mesh) throw std::invalid_argument("the tool '" + tool.file + "' has no surface");
+      return rigid(std::make_shared<MeshShape>(mesh));
+    case ToolShape::Hand:
+      return std::make_shared<HandTool>(HandModel(tool.length, tool.side));
+    case ToolShape::Point:
+      break;
+  }
+  throw std::invalid_argument("points and tools with a shape do not touch a surface together");
+}
+
+std::shared_ptr<TouchModel> pointTouch(const Scene& scene, const SceneBody& body) {
+  const SceneEffects& effects = scene.effects;
+  for (const SceneTool& tool : scene.tools)
+    if (tool.shape != ToolShape::Point)
+      throw std::invalid_argument("points and tools with a shape do not touch a surface together");
+  const double radius = effects.maskRadiusEdges > 0
+                            ? effects.maskRadiusEdges * body.mesh->meanEdgeLength()
+                            : effects.maskRadius;
+  const double modulus = body.greens->info().material.youngsModulus();
+  const auto greens = effects.stiffnessScale == 1
+                          ? body.greens
+                          : body.greens->withYoungsModulus(effects.stiffnessScale * modulus);
+  const auto stiffness = std::make_shared<const SurfaceStiffness>(
+      greens, body.mesh, effects.maskShape, radius, effects.stiffnessLimit);
+  return std::make_shared<PointTouch>(stiffness, static_cast<int>(scene.tools.size()),
+                                      effects.friction);
+}
+
+std::shared_ptr<TouchModel> toolTouch(
+    const Scene& scene, const std::vector<SceneBody>& bodies,
+    const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes) {
+  const SceneEffects& effects = scene.effects;
+  std::vector<std::shared_ptr<const TouchTool>> tools;
+  for (std::size_t i = 0; i < scene.tools.size(); ++i)
+    tools.push_back(toolOf(scene.tools[i], i < toolMeshes.size() ? toolMeshes[i] : nullptr));
+  std::vector<ElasticPartner> partners;
+  for (std::size_t i = 1; i < bodies.size(); ++i)
+    partners.push_back(
+        {bodies[i].greens, bodies[i].mesh, scene.models[i].pose, scene.models[i].friction});
+  auto touch = std::make_shared<ToolTouch>(bodies[0].greens, bodies[0].mesh, std::move(tools),
+                                           effects.friction, scene.solver, partners);
+  touch->setTorques(effects.torque);
+  touch->setStiffnessScale(effects.stiffnessScale);
+  return touch;
+}
+
+}  // namespace
+
+TouchSession::TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
+                           const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes)
+    : rows_(scene.effects.deformation), stiffnessScale_(scene.effects.stiffnessScale) {
+  requireBodies(scene, bodies);
+  requireNoGravity(scene.effects);
+  if (scene.tools.empty())
+    throw std::invalid_argument("there is no tool to touch the surface with");
+  greens_ = bodies[0].greens;
+  placeProbes(scene.effects.probes, bodies[0]);
+  model_ = scene.isOfPoints() ? pointTouch(scene, bodies[0]) : toolTouch(scene, bodies, toolMeshes);
+  if (rows_ == DeformationRows::None) return;
+  computed_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    deformations_.emplace_back(bodies[i].greens, static_cast<int>(i),
+                               scene.models[i].pose.orientation);
+}
+
+void TouchSession::placeProbes(const std::vector<SceneProbe>& probes, const SceneBody& body) {
+  if (probes.empty()) return;
+  probes_.setZero(3, probes.size());
+  probeStarts_.push_back(0);
+  for (const SceneProbe& probe : probes) {
+    if (probe.node >= body.greens->nodeCount())
+      throw std::invalid_argument("the probe '" + probe.name + "' is at node " +
+                                  std::to_string(probe.node) + ", but the model has " +
+                                  std::to_string(body.greens->nodeCount()) + " nodes");
+    if (probe.node >= 0) {
+      probeNodes_.push_back(probe.node);
+      probeWeights_.push_back(1);
+    } else {
+      const SurfacePoint point = nearestSurfacePoint(*body.mesh, probe.position);
+      const double away = (placeOf(*body.mesh, point) - probe.position).norm();
+      if (away > body.mesh->meanEdgeLength())
+        throw std::invalid_argument("the probe '" + probe.name + "' lies " + std::to_string(away) +
+                                    " m from the surface, on which the displacement is known");
+      for (int k = 0; k < 3; ++k) {
+        if (point.barycentric[k] == 0) continue;
+        probeNodes_.push_back(body.mesh->triangles()(k, point.triangle));
+        probeWeights_.push_back(point.barycentric[k]);
+      }
+    }
+    probeStarts_.push_back(static_cast<int>(probeNodes_.size()));
+  }
+}
+
+/// From all rows if they are there, else at the cost of their own.
+void TouchSession::computeProbes(const ContactSnapshot& snapshot) {
+  Eigen::Matrix3Xd at = Eigen::Matrix3Xd::Zero(3, probeNodes_.size());
+  const bool isKnown = rows_ == DeformationRows::All;
+  if (!isKnown) {
+    const SnapshotTractions tractions =
+        snapshotTractions(*greens_, snapshot, 0, Eigen::Matrix3d::Identity(), stiffnessScale_);
+    greens_->accumulate(nodeList(tractions.nodes), tractions.values, nodeList(probeNodes_),
+                        at.reshaped());
+  }
+  probes_.setZero();
+  for (int probe = 0; probe < probes_.cols(); ++probe)
+    for (int i = probeStarts_[probe]; i < probeStarts_[probe + 1]; ++i)
+      if (!greens_->isFixed(probeNodes_[i]))
+        probes_.col(probe) += probeWeights_[i] * (isKnown ? displacement(0).col(probeNodes_[i])
+                                                          : Eigen::Vector3d(at.col(i)));
+}
+
+void TouchSession::computeFrame(const ContactSnapshot& snapshot,
+                                const std::vector<std::vector<int>>& visible) {
+  for (std::size_t body = 0; body < deformations_.size(); ++body) {
+    SnapshotDeformation& deformation = deformations_[body];
+    if (rows_ == DeformationRows::All) {
+      deformation.computeAll(snapshot, stiffnessScale_);
+      continue;
+    }
+    std::vector<int> rows;
+    if (rows_ == DeformationRows::Contact)
+      rows = deformation.loadedNodes(snapshot);
+    else if (body < visible.size())
+      rows = visible[body];
+    deformation.clearAt(computed_[body]);
+    deformation.computeAt(rows, snapshot, stiffnessScale_);
+    computed_[body] = std::move(rows);
+  }
+  if (probes_.cols() > 0) computeProbes(snapshot);
+}
+
+}  // namespace palpate

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "haptics/scene.h"
+#include "haptics/snapshot_deformation.h"
+#include "haptics/touch_model.h"
+#include "mesh/surface_mesh.h"
+
+namespace palpate {
+
+/// One of a scene's models, loaded.
+struct SceneBody {
+  std::shared_ptr<const GreensFunctions> greens;
+  std::shared_ptr<const SurfaceMesh> mesh;
+};
+
+/// A scene at work: the model that a servo loop steps, and the displacements that a slower thread
+/// draws. It holds what the scene's effects need and nothing else.
+class TouchSession {
+ public:
+  /// @param bodies      one for each of the scene's models, in its order.
+  /// @param toolMeshes  one for each of its tools, null but for meshes; may be empty without them.
+  /// @throws std::invalid_argument if a body or a tool's mesh is missing, for a probe that is not
+  ///         on the first model, for gravity, which no model here bears; and as PointTouch,
+  ///         SurfaceStiffness and ToolTouch.
+  TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
+               const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes = {});
+
+  /// For ServoLoop.
+  const std::shared_ptr<TouchModel>& model() const { return model_; }
+
+  /// Computes the rows that the scene asks for. Rows that were computed before and are not now are
+  /// zero again.
+  /// @param visible  nodes in view, a list for each body; needed for DeformationRows::Visible only,
+  ///                 and lists at the end may be missing.
+  /// @throws std::invalid_argument for a node out of range.
+  void computeFrame(const ContactSnapshot& snapshot,
+                    const std::vector<std::vector<int>>& visible = {});
+
+  /// Whether displacements are computed at all, beyond those of probes.
+  bool deforms() const { return !deformations_.empty(); }
+  /// 3 by #nodes of a body, m, in the scene's frame; zero where not computed.
+  /// @throws std::out_of_range unless it deforms.
+  const Eigen::Matrix3Xd& displacement(int body) const {
+    return deformations_.at(body).displacement();
+  }
+  /// 3 by #probes, in the scene's order, m.
+  const Eigen::Matrix3Xd& probeDisplacements() const { return probes_; }
+
+ private:
+  void placeProbes(const std::vector<SceneProbe>& probes, const SceneBody& body);
+  void computeProbes(const ContactSnapshot& snapshot);
+
+  std::shared_ptr<const GreensFunctions> greens_;  ///< of the first model
+  DeformationRows rows_;
+  double stiffnessScale_;
+  std::shared_ptr<TouchModel> model_;
+  std::vector<SnapshotDeformation> deformations_;  ///< a body, or none
+  std::vector<std::vector<int>> computed_;         ///< rows of the last frame, a body
+  std::vector<int> probeNodes_;                    ///< as many a probe as probeStarts_ says
+  std::vector<double> probeWeights_;               ///< of each of them
+  std::vector<int> probeStarts_;                   ///< #probes + 1
+  Eigen::Matrix3Xd probes_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/touch_session.h"
+
+#include <gtest/gtest.h>
+
+#include "haptics/point_touch.h"
+#include "haptics/tool_touch.h"
+#include "support/allocation_count.h"
+#include "support/contact_bodies.h"
+#include "support/counting_greens.h"
+#include "support/process_state.h"
+#include "support/refusals.h"
+
+namespace palpate::test {
+namespace {
+
+/// A scene of one body and tools that mice move.
+std::string sceneText(const std::string& shapes, const std::string& effects,
+                      const std::string& models = "{\"file\": \"sphere\"}") {
+  std::string tools, devices;
+  int count = 0;
+  for (std::size_t at = 0; at < shapes.size();) {
+    const std::size_t end = std::min(shapes.find(';', at), shapes.size());
+    const std::string name = "\"mouse " + std::to_string(count) + "\"", comma = count++ ? ", " : "";
+    tools += comma + "{" + shapes.substr(at, end - at) + ", \"device\": " + name + "}";
+    devices += comma + "{\"name\": " + name + ", \"type\": \"mouse\"}";
+    at = end + 1;
+  }
+  return "{\"models\": [" + models + "], \"tools\": [" + tools + "], \"devices\": [" + devices +
+         "], \"effects\": {" + effects + "}}";
+}
+
+const std::string kPoint = "\"shape\": \"point\"";
+const std::string kBall = "\"shape\": \"sphere\", \"radius\": 0.3";
+
+/// A session with a body whose use is counted.
+struct Counted {
+  explicit Counted(const TouchedBody& body, const std::string& shapes, const std::string& effects)
+      : greens(std::make_shared<CountingGreens>(body.greens)),
+        session(parseScene(sceneText(shapes, effects)), {{greens, body.mesh}}),
+        snapshot(session.model()->makeSnapshot()) {}
+
+  /// Presses from above, down to a height of the tool.
+  void press(double x, double height) {
+    ToolPose pose;
+    Wrench wrenches[4];
+    for (int tick = 0; tick <= 40; ++tick) {
+      pose.position = {x, 0, 1.5 + tick / 40. * (height - 1.5)};
+      session.model()->step(&pose, wrenches);
+    }
+    wrench = wrenches[0];
+    session.model()->fill(snapshot);
+    greens->clearCounts();
+  }
+
+  std::shared_ptr<const CountingGreens> greens;
+  TouchSession session;
+  ContactSnapshot snapshot;
+  Wrench wrench;
+};
+
+int loadedCount(const Counted& counted) {
+  return static_cast<int>(
+      snapshotTractions(*counted.greens, counted.snapshot, 0, Eigen::Matrix3d::Identity(), 1)
+          .nodes.size());
+}
+
+TEST(TouchSessions, TouchWithPointsOrWithShapes) {
+  const TouchedBody body = touchedSphere(2, true);
+  Counted point(body, kPoint, "\"friction\": {\"mu\": 0.4}");
+  const auto* pointTouch = dynamic_cast<const PointTouch*>(point.session.model().get());
+  ASSERT_TRUE(pointTouch);
+  EXPECT_EQ(pointTouch->friction(), 0.4);
+  Counted shapes(body,
+                 kBall + ";\"shape\": \"capsule\", \"radius\": 0.1, \"length\": 1" +
+                     ";\"shape\": \"plane\";\"shape\": \"hand\", \"length\": 1",
+                 "");
+  const auto* toolTouch = dynamic_cast<const ToolTouch*>(shapes.session.model().get());
+  ASSERT_TRUE(toolTouch);
+  EXPECT_EQ(toolTouch->contact().obstacleCount(), 3 + kHandCapsuleCount);
+}
+
+/// Each choice of rows gives the rows of the whole deformation, and pays for no others.
+TEST(TouchSessions, ComputeTheRowsAskedForAndNoOthers) {
+  const TouchedBody body = touchedSphere(3, true);
+  for (const std::string& tool : {kPoint, kBall}) {
+    const double height = tool == kPoint ? 0.9 : 1.2;
+    Counted all(body, tool, "\"deformation\": \"all\"");
+    all.press(0.1, height);
+    const double loaded = loadedCount(all), nodes = body.mesh->vertexCount();
+    ASSERT_GT(loaded, 0);
+    all.session.computeFrame(all.snapshot);
+    EXPECT_EQ(all.greens->counts().multiplyAdds, 9 * nodes * loaded);
+    const Eigen::Matrix3Xd& whole = all.session.displacement(0);
+    EXPECT_GT(whole.norm(), 0);
+
+    Counted visible(body, tool, "\"deformation\": \"visible\"");
+    visible.press(0.1, height);
+    const std::vector<int> inView = {3, 77, 200};
+    visible.session.computeFrame(visible.snapshot, {inView});
+    EXPECT_EQ(visible.greens->counts().multiplyAdds, 9 * 3 * loaded);
+    for (int node = 0; node < nodes; ++node) {
+      const bool isAsked = std::count(inView.begin(), inView.end(), node) > 0;
+      const Eigen::Vector3d exact =
+          isAsked ? Eigen::Vector3d(whole.col(node)) : Eigen::Vector3d::Zero();
+      EXPECT_LE((visible.session.displacement(0).col(node) - exact).norm(), 1e-12 * whole.norm());
+    }
+    // What goes out of view goes back.
+    visible.session.computeFrame(visible.snapshot, {{5}});
+    EXPECT_TRUE(visible.session.displacement(0).col(77).isZero(0));
+    EXPECT_TRUE(isRefused([&] { visible.session.computeFrame(visible.snapshot, {{9999}}); },
+                          "there is no node 9999"));
+
+    Counted contact(body, tool, "\"deformation\": \"contact\"");
+    contact.press(0.1, height);
+    contact.session.computeFrame(contact.snapshot);
+    EXPECT_EQ(contact.greens->counts().multiplyAdds, 9 * loaded * loaded);
+
+    Counted none(body, tool, "\"deformation\": \"none\"");
+    none.press(0.1, height);
+    none.session.computeFrame(none.snapshot);
+    EXPECT_EQ(none.greens->counts().calls, 0);
+    EXPECT_FALSE(none.session.deforms());
+    EXPECT_THROW(none.session.displacement(0), std::out_of_range);
+  }
+}
+
+TEST(TouchSessions, ProbesCostTheirOwnRowsUnlessAllAreComputed) {
+  const TouchedBody body = touchedSphere(2, true);
+  const Eigen::Vector3i corners = body.mesh->triangles().col(20);
+  const Eigen::Vector3d middle =
+      (body.mesh->points().col(corners[0]) + body.mesh->points().col(corners[1]) +
+       body.mesh->points().col(corners[2])) /
+      3;
+  const std::string place = std::to_string(middle.x()) + ", " + std::to_string(middle.y()) + ", " +
+                            std::to_string(middle.z());
+  const std::string probes =
+      "\"probes\": [{\"name\": \"node\", \"node\": 5}, {\"name\": \"middle\", "
+      "\"position\": [" +
+      place + "]}], ";
+  Counted all(body, kBall, probes + "\"deformation\": \"all\"");
+  Counted none(body, kBall, probes + "\"deformation\": \"none\"");
+  all.press(0.05, 1.2);
+  none.press(0.05, 1.2);
+  const double loaded = loadedCount(all);
+  all.session.computeFrame(all.snapshot);
+  none.session.computeFrame(none.snapshot);
+  EXPECT_EQ(all.greens->counts().multiplyAdds, 9 * body.mesh->vertexCount() * loaded);
+  EXPECT_EQ(none.greens->counts().multiplyAdds, 9 * 4 * loaded);
+  const Eigen::Matrix3Xd& u = all.session.displacement(0);
+  ASSERT_EQ(none.session.probeDisplacements().cols(), 2);
+  EXPECT_GT(u.col(5).norm(), 0);
+  EXPECT_LE((none.session.probeDisplacements().col(0) - u.col(5)).norm(), 1e-12 * u.norm());
+  const Eigen::Vector3d mean = (u.col(corners[0]) + u.col(corners[1]) + u.col(corners[2])) / 3;
+  // The place is written with six decimals.
+  EXPECT_LE((none.session.probeDisplacements().col(1) - mean).norm(), 1e-4 * u.norm());
+  EXPECT_LE((none.session.probeDisplacements() - all.session.probeDisplacements()).norm(),
+            1e-12 * u.norm());
+}
+
+TEST(TouchSessions, AStiffnessScaleChangesForcesAndNotShapes) {
+  const TouchedBody body = touchedSphere(2, true);
+  for (const std::string& tool : {kPoint, kBall}) {
+    const double height = tool == kPoint ? 0.9 : 1.25;
+    Counted soft(body, tool, ""), stiff(body, tool, "\"stiffness_scale\": 3");
+    soft.press(0.02, height);
+    stiff.press(0.02, height);
+    EXPECT_LE((stiff.wrench.force - 3 * soft.wrench.force).norm(),
+              1e-6 * stiff.wrench.force.norm());
+    soft.session.computeFrame(soft.snapshot);
+    stiff.session.computeFrame(stiff.snapshot);
+    const Eigen::Matrix3Xd& shape = soft.session.displacement(0);
+    EXPECT_LE((stiff.session.displacement(0) - shape).norm(), 1e-6 * shape.norm());
+  }
+}
+
+TEST(TouchSessions, ComputeTorquesOnRequestOnly) {
+  const TouchedBody body = touchedSphere(2, true);
+  Counted with(body, kBall, "\"torque\": true, \"friction\": {\"mu\": 0.5}");
+  Counted without(body, kBall, "\"friction\": {\"mu\": 0.5}");
+  with.press(0.2, 1.2);
+  without.press(0.2, 1.2);
+  EXPECT_GT(with.wrench.torque.norm(), 0);
+  EXPECT_TRUE(without.wrench.torque.isZero(0));
+  EXPECT_TRUE(without.snapshot.tools[0].wrench.torque.isZero(0));
+  EXPECT_LE((with.wrench.force - without.wrench.force).norm(), 1e-12 * with.wrench.force.norm());
+}
+
+TEST(TouchSessions, PartnersMeetTheFirstAndDeform) {
+  const TouchedBody body = touchedSphere(2, true);
+  const Scene scene = parseScene(
+      sceneText(kBall, "\"elastic_elastic\": true",
+                "{\"file\": \"a\"}, {\"file\": \"b\", \"position\": [0, 0, 1.97], \"orientation\": "
+                "{\"axis\": [1, 0, 0], \"angle\": 3}}"));
+  TouchSession session(scene, {{body.greens, body.mesh}, {body.greens, body.mesh}});
+  ToolPose pose;
+  pose.position = {5, 5, 5};
+  Wrench wrench;
+  for (int tick = 0; tick < 5; ++tick) session.model()->step(&pose, &wrench);
+  ContactSnapshot snapshot = session.model()->makeSnapshot();
+  session.model()->fill(snapshot);
+  session.computeFrame(snapshot);
+  int pole;
+  body.mesh->points().row(2).maxCoeff(&pole);
+  EXPECT_LT(session.displacement(0)(2, pole), 0);
+  EXPECT_GT(session.displacement(1)(2, pole), 0);
+}
+
+/// Of a session without deformation and probes, a frame costs nothing at all; and no session
+/// starts a thread or loads a library.
+TEST(TouchSessions, PayForNothingThatIsNotAskedFor) {
+  ASSERT_TRUE(allocationsAreCounted());
+  const TouchedBody body = touchedSphere(2, true);
+  const int threads = threadCount();
+  for (const std::string& tool : {kPoint, kBall}) {
+    Counted none(body, tool, "\"deformation\": \"none\"");
+    none.press(0.05, tool == kPoint ? 0.9 : 1.2);
+    const long before = allocationCount();
+    none.session.computeFrame(none.snapshot);
+    EXPECT_EQ(allocationCount() - before, 0);
+    EXPECT_EQ(none.greens->counts().calls, 0);
+  }
+  EXPECT_EQ(threadCount(), threads);
+  EXPECT_FALSE(isLoaded("hidapi"));
+  EXPECT_FALSE(isLoaded("libvtk"));
+  EXPECT_FALSE(isLoaded("libGL"));
+}
+
+/// A point needs no contact solver, and a shape no table of stiffnesses.
+TEST(TouchSessions, PrepareOnlyTheContactThatIsAskedFor) {
+  const TouchedBody body = touchedSphere(2, true);
+  const Counted ball(body, kBall, "");
+  EXPECT_EQ(ball.greens->counts().calls, 0);
+  const Counted point(body, kPoint, "");
+  EXPECT_GT(point.greens->counts().gatheredBlocks, 0);
+}
+
+TEST(TouchSessions, RefuseWhatTheyCannotHold) {
+  const TouchedBody body = touchedSphere(1, true);
+  const std::vector<SceneBody> bodies = {{body.greens, body.mesh}};
+  const auto refused = [&](const std::string& tool, const std::string& effects,
+                           const std::string& sentence) {
+    return isRefused([&] { TouchSession(parseScene(sceneText(tool, effects)), bodies); }, sentence);
+  };
+  EXPECT_TRUE(refused(kPoint, "\"probes\": [{\"name\": \"tip\", \"node\": 42}]",
+                      "the probe 'tip' is at node 42, but the model has 42 nodes"));
+  EXPECT_TRUE(refused(kPoint, "\"probes\": [{\"name\": \"tip\", \"position\": [0, 0, 9]}]",
+                      "the probe 'tip' lies"));
+  EXPECT_TRUE(
+      refused("\"shape\": \"mesh\", \"file\": \"spoon\"", "", "the tool 'spoon' has no surface"));
+  const Scene scene = parseScene(sceneText(kPoint, ""));
+  EXPECT_TRUE(
+      isRefused([&] { TouchSession(scene, {}); }, "the scene has 1 models, but there are 0"));
+  EXPECT_TRUE(isRefused([&] { TouchSession(scene, {{nullptr, body.mesh}}); }, "has no surface or"));
+  Scene mixed = parseScene(sceneText(kPoint + ";" + kPoint, ""));
+  mixed.tools[1].shape = ToolShape::Plane;
+  EXPECT_TRUE(isRefused([&] { TouchSession(mixed, bodies); }, "do not touch a surface together"));
+}
+
+}  // namespace
+}  // namespace palpate::test
