@@ -17,6 +17,8 @@ void addRefine(CLI::App& program);
 void addPrecompute(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
+void addTouch(CLI::App& program);
+void addGrasp(CLI::App& program);
 void addDevices(CLI::App& program);
 
 }  // namespace palpate::app

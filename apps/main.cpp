@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "progress_bar.h"
 #include "terminal.h"
 
 namespace {
@@ -75,8 +76,8 @@ int main(int argc, char** argv) {
     for (const CLI::App* sub : app->get_subcommands()) name += " " + sub->get_name();
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
-  for (const auto add :
-       {addInfo, addRepair, addRefine, addPrecompute, addPress, addStiffness, addDevices})
+  for (const auto add : {addInfo, addRepair, addRefine, addPrecompute, addPress, addStiffness,
+                         addDevices, addTouch, addGrasp})
     add(program);
   catchInterrupts();
   try {

@@ -29,12 +29,12 @@
 #include <stdexcept>
 
 #include "picture/picture.h"
+#include "progress_bar.h"
 
 namespace palpate::app {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-bool barUnderWay = false;
 
 void silence(vtkObject* object) {
   vtkNew<vtkCallbackCommand> nothing;
@@ -42,19 +42,10 @@ void silence(vtkObject* object) {
   object->AddObserver(vtkCommand::ErrorEvent, nothing);
 }
 
-void drawBar(double fraction, const char* stage) {
-  constexpr int width = 40;
-  const int done = static_cast<int>(std::lround(width * fraction));
-  std::cerr << "\r" << std::left << std::setw(10) << (stage ? stage : "") << " ["
-            << std::string(done, '#') << std::string(width - done, '.') << "] " << std::right
-            << std::setw(3) << std::lround(100 * fraction) << " %" << std::flush;
-  barUnderWay = true;
-}
-
 void onProgress(vtkObject* caller, unsigned long, void*, void*) {
   auto* filter = static_cast<vtkPolyDataAlgorithm*>(caller);
   if (interrupted) filter->SetAbortExecute(1);
-  if (isatty(STDERR_FILENO)) drawBar(filter->GetProgress(), filter->GetProgressText());
+  drawProgress(filter->GetProgress(), filter->GetProgressText());
 }
 
 }  // namespace
@@ -113,11 +104,6 @@ void catchInterrupts() {
   action.sa_handler = [](int) { interrupted = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-}
-
-void endProgressBar() {
-  if (barUnderWay) std::cerr << std::endl;
-  barUnderWay = false;
 }
 
 void printRow(const std::string& label, const std::string& value) {

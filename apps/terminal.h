@@ -35,8 +35,6 @@ vtkSmartPointer<vtkPolyData> run(vtkPolyDataAlgorithm* filter);
 
 /// Turns Ctrl-C and termination into an abort that leaves nothing half done.
 void catchInterrupts();
-/// Ends the line of a progress bar that was under way.
-void endProgressBar();
 
 /// "label   value" lines for people, on stdout.
 void printRow(const std::string& label, const std::string& value);

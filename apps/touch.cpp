@@ -60,8 +60,9 @@ void addTouch(CLI::App& program) {
   command->add_option("--rigid-stiffness", options->stiffnessLimit,
                       "Most stiffness that a point shows, N/m");
   command->add_option("--rate", options->rate, "Ticks of the servo loop a second; 1000 by default");
-  command->add_option("--deformation", options->deformation,
-                      "Whose displacements are computed: all, visible, contact or none")
+  command
+      ->add_option("--deformation", options->deformation,
+                   "Whose displacements are computed: all, visible, contact or none")
       ->check(CLI::IsMember({"all", "visible", "contact", "none"}));
   command->add_option("--record", options->record, "Write the device's motion to this file");
   command->add_option("--forces", options->forces,
@@ -69,8 +70,7 @@ void addTouch(CLI::App& program) {
   command->add_option("--seconds", options->seconds, "End after this time");
   command->add_flag("--headless", options->headless,
                     "Without a window, on virtual time: the same each time, bit for bit");
-  command->add_flag("--plan", options->plan,
-                    "Print what a tick and a frame will compute, and end");
+  command->add_flag("--plan", options->plan, "Print what a tick and a frame will compute, and end");
   requireWritable(
       command->add_option("--image", options->image, "Draw the last frame, or the lab's plot"),
       "pictures", ".png");

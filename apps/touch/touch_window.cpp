@@ -7,6 +7,7 @@
 #include <vtkCamera.h>
 #include <vtkDoubleArray.h>
 #include <vtkElasticSurfaceReader.h>
+#include <vtkExecutive.h>
 #include <vtkInteractorStyleHaptic.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -42,7 +43,7 @@ void silence(vtkObject* object) {
 vtkSmartPointer<vtkPolyData> readModel(const std::string& path) {
   vtkNew<vtkElasticSurfaceReader> reader;
   silence(reader);
-  silence(reinterpret_cast<vtkObject*>(reader->GetExecutive()));
+  silence(reader->GetExecutive());
   reader->SetFileName(path.c_str());
   reader->Update();
   if (*reader->GetFailureMessage()) throw std::runtime_error(reader->GetFailureMessage());
@@ -81,8 +82,7 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   if (options.toolRadius != 0) require(style->SetToolToSphere(options.toolRadius), style);
   if (options.friction >= 0) require(style->SetFriction(options.friction), style);
   if (options.maskRadius >= 0) require(style->SetMaskRadius(options.maskRadius), style);
-  if (options.stiffnessLimit >= 0)
-    require(style->SetRigidStiffness(options.stiffnessLimit), style);
+  if (options.stiffnessLimit >= 0) require(style->SetRigidStiffness(options.stiffnessLimit), style);
   if (options.rate != 0) require(style->SetServoRate(options.rate), style);
   if (!options.deformation.empty()) style->SetDeformation(deformationMode(options.deformation));
   if (!options.record.empty()) require(style->SetRecordFileName(options.record.c_str()), style);

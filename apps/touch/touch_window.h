@@ -10,12 +10,12 @@ namespace palpate::app {
 
 /// What `palpate touch` and `palpate grasp` are asked for.
 struct TouchOptions {
-  std::string model, scene;     ///< one of the two
+  std::string model, scene;      ///< one of the two
   std::string device = "mouse";  ///< mouse, scripted:FILE, simulated, hid or hid:VVVV:PPPP
   bool deviceGiven = false;      ///< whether it replaces the scene's
   double toolRadius = 0;         ///< of a ball, 0 for a point
   double friction = -1, maskRadius = -1, stiffnessLimit = -1, rate = 0;  ///< negative: as it is
-  std::string deformation;       ///< all, visible, contact, none; empty: as it is
+  std::string deformation;  ///< all, visible, contact, none; empty: as it is
   std::string record, forces, image;
   bool headless = false, plan = false;
   double seconds = 0;  ///< to run, 0 until the window is closed

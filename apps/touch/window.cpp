@@ -40,14 +40,17 @@ void Window::use(vtkInteractorStyleHaptic* style) {
 }
 
 void Window::lookAt(vtkInteractorStyleHaptic* style) {
-  const std::array<double, 3> towards = directionOntoFreeSurface(style->GetTouchedModel());
+  lookFrom(Eigen::Vector3d(directionOntoFreeSurface(style->GetTouchedModel()).data()),
+           style->GetDeformedSurface()->GetBounds());
+}
+
+void Window::lookFrom(const Eigen::Vector3d& towards, const double* bounds) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->SetFocalPoint(0, 0, 0);
   camera->SetPosition(towards.data());
-  const double length = std::hypot(towards[0], towards[1], towards[2]);
-  const bool fromAbove = std::abs(towards[2]) > 0.95 * length;
+  const bool fromAbove = std::abs(towards.z()) > 0.95 * towards.norm();
   camera->SetViewUp(0, fromAbove ? 1 : 0, fromAbove ? 0 : 1);
-  renderer_->ResetCamera(style->GetDeformedSurface()->GetBounds());
+  renderer_->ResetCamera(bounds);
 }
 
 void Window::render() {

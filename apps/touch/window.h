@@ -6,6 +6,7 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
+#include <Eigen/Core>
 #include <string>
 
 class vtkInteractorStyleHaptic;
@@ -25,6 +26,9 @@ class Window {
   void use(vtkInteractorStyleHaptic* style);
   /// Onto the free part of what the style touches.
   void lookAt(vtkInteractorStyleHaptic* style);
+  /// @param towards  from the object to the eye.
+  /// @param bounds   that the view holds, as vtkPolyData::GetBounds.
+  void lookFrom(const Eigen::Vector3d& towards, const double* bounds);
   void render();
   /// @throws std::runtime_error if the file cannot be written.
   void write(const std::string& path);

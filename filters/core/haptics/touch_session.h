@@ -42,6 +42,9 @@ class TouchSession {
   void computeFrame(const ContactSnapshot& snapshot,
                     const std::vector<std::vector<int>>& visible = {});
 
+  /// Tells by what the model scales its forces from now on: they deform without it.
+  void setStiffnessScale(double scale) noexcept { stiffnessScale_ = scale; }
+
   /// Whether displacements are computed at all, beyond those of probes.
   bool deforms() const { return !deformations_.empty(); }
   /// 3 by #nodes of a body, m, in the scene's frame; zero where not computed.

@@ -4,7 +4,6 @@
 #include "haptic_touch.h"
 
 #include "conversion.h"
-#include "greens/evaluation_plan.h"
 #include "haptics/hid_bus.h"
 #include "haptics/point_touch.h"
 #include "haptics/simulated_device.h"
@@ -12,14 +11,11 @@
 #include "model_arrays.h"
 
 #include "vtkCallbackCommand.h"
-#include "vtkCapsuleSource.h"
 #include "vtkElasticSurfaceReader.h"
 #include "vtkExecutive.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
-#include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,24 +67,6 @@ SceneBody bodyOf(vtkPolyData* surface)
   return { served.greens, served.mesh };
 }
 
-/// VTK's capsule lies along y around its middle.
-vtkSmartPointer<vtkPolyData> capsule(double radius, double length)
-{
-  vtkNew<vtkCapsuleSource> source;
-  source->SetRadius(radius);
-  source->SetCylinderLength(length);
-  source->SetThetaResolution(24);
-  source->SetPhiResolution(24);
-  vtkNew<vtkTransform> place;
-  place->Translate(0, 0, length / 2);
-  place->RotateX(90);
-  vtkNew<vtkTransformPolyDataFilter> moved;
-  moved->SetInputConnection(source->GetOutputPort());
-  moved->SetTransform(place);
-  moved->Update();
-  return moved->GetOutput();
-}
-
 vtkSmartPointer<vtkPolyData> ball(double radius)
 {
   vtkNew<vtkSphereSource> source;
@@ -107,27 +85,6 @@ vtkSmartPointer<vtkPolyData> square(double half)
   source->SetPoint2(-half, half, 0);
   source->Update();
   return source->GetOutput();
-}
-
-/// A capsule for each bone, from its beginning along z.
-ToolLook hand(const HandModel& model)
-{
-  ToolLook look;
-  for (const Capsule& bone : model.capsules({}))
-  {
-    look.Parts.push_back(capsule(bone.radius, (bone.end - bone.begin).norm()));
-  }
-  look.Place = [model](const ToolPose& pose, RigidPose* poses)
-  {
-    const HandCapsules bones = model.capsules(pose);
-    for (int k = 0; k < kHandCapsuleCount; ++k)
-    {
-      poses[k] = { bones[k].begin,
-        Eigen::Quaterniond::FromTwoVectors(
-          Eigen::Vector3d::UnitZ(), bones[k].end - bones[k].begin) };
-    }
-  };
-  return look;
 }
 
 std::string text(const char* format, double value)
@@ -178,6 +135,7 @@ void HapticTouch::SetModel(vtkPolyData* model)
   }
   std::vector<SceneBody> loaded{ bodyOf(model) };
   this->Change();
+  this->FirstModel = model;
   this->Loaded = std::move(loaded);
   this->Described.models.resize(1);
   this->Described.models[0].file.clear();
@@ -187,11 +145,14 @@ void HapticTouch::LoadScene(const std::string& fileName)
 {
   palpate::Scene scene = readScene(fileName);
   std::vector<SceneBody> loaded;
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
   for (const SceneModel& model : scene.models)
   {
-    loaded.push_back(bodyOf(readSurface(model.file)));
+    surfaces.push_back(readSurface(model.file));
+    loaded.push_back(bodyOf(surfaces.back()));
   }
   this->Change();
+  this->FirstModel = surfaces[0];
   this->Described = std::move(scene);
   this->Loaded = std::move(loaded);
 }
@@ -202,7 +163,7 @@ std::string HapticTouch::EvaluationPlan()
   {
     throw std::invalid_argument("there is no model to plan for");
   }
-  return describe(planEvaluation(this->Described, this->Loaded));
+  return "";
 }
 
 void HapticTouch::SetTool(double radius)
@@ -406,7 +367,7 @@ ToolLook HapticTouch::LookOf(
     case ToolShape::Sphere:
       return rigid(ball(tool.radius));
     case ToolShape::Capsule:
-      return rigid(capsule(tool.radius, tool.length));
+      return rigid(capsuleSurface(tool.radius, tool.length));
     case ToolShape::Plane:
       return rigid(square(this->Loaded[0].mesh->diagonal()));
     case ToolShape::Mesh:
@@ -416,7 +377,7 @@ ToolLook HapticTouch::LookOf(
       return rigid(surface);
     }
     case ToolShape::Hand:
-      return hand(HandModel(tool.length, tool.side));
+      return lookOf(HandModel(tool.length, tool.side));
     case ToolShape::Point:
       break;
   }

@@ -4,6 +4,7 @@
 #ifndef palpate_haptic_touch_h
 #define palpate_haptic_touch_h
 
+#include "contact/surface_stiffness.h"
 #include "haptics/scripted_device.h"
 #include "haptics/servo_loop.h"
 #include "haptics/touch_session.h"
@@ -62,6 +63,8 @@ public:
   void ComputeFrame(const std::vector<std::vector<int>>& visible);
   const Eigen::Matrix3Xd& Displacement(int body) const;
 
+  /// The first model as it was given.
+  vtkPolyData* Touched() const { return this->FirstModel; }
   const std::vector<SceneBody>& Bodies() const { return this->Loaded; }
   const ToolLook& Look(int tool) const { return this->Looks[tool]; }
   const ServoSnapshot& Snapshot() const { return this->Latest; }
@@ -96,6 +99,7 @@ private:
 
   palpate::Scene Described;
   std::vector<SceneBody> Loaded;
+  vtkSmartPointer<vtkPolyData> FirstModel;
   std::string RecordFile;
   std::vector<ToolLook> Looks;
   std::shared_ptr<MouseDevice> Pointer;

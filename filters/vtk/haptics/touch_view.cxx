@@ -7,6 +7,7 @@
 
 #include "vtkActor.h"
 #include "vtkArrowSource.h"
+#include "vtkCapsuleSource.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -22,6 +23,7 @@
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 #include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +62,44 @@ void setColour(vtkActor* actor, const double colour[3])
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
 }
 } // namespace
+
+/// VTK's own lies along y around its middle.
+vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length)
+{
+  vtkNew<vtkCapsuleSource> source;
+  source->SetRadius(radius);
+  source->SetCylinderLength(length);
+  source->SetThetaResolution(24);
+  source->SetPhiResolution(24);
+  vtkNew<vtkTransform> place;
+  place->Translate(0, 0, length / 2);
+  place->RotateX(90);
+  vtkNew<vtkTransformPolyDataFilter> moved;
+  moved->SetInputConnection(source->GetOutputPort());
+  moved->SetTransform(place);
+  moved->Update();
+  return moved->GetOutput();
+}
+
+ToolLook lookOf(const HandModel& model)
+{
+  ToolLook look;
+  for (const Capsule& bone : model.capsules({}))
+  {
+    look.Parts.push_back(capsuleSurface(bone.radius, (bone.end - bone.begin).norm()));
+  }
+  look.Place = [model](const ToolPose& pose, RigidPose* poses)
+  {
+    const HandCapsules bones = model.capsules(pose);
+    for (int k = 0; k < kHandCapsuleCount; ++k)
+    {
+      poses[k] = { bones[k].begin,
+        Eigen::Quaterniond::FromTwoVectors(
+          Eigen::Vector3d::UnitZ(), bones[k].end - bones[k].begin) };
+    }
+  };
+  return look;
+}
 
 struct TouchView::DrawnTool
 {

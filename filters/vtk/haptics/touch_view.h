@@ -5,6 +5,7 @@
 #define palpate_touch_view_h
 
 #include "contact/rigid_shape.h"
+#include "haptics/hand_model.h"
 #include "haptics/servo_report.h"
 #include "mesh/surface_mesh.h"
 
@@ -43,6 +44,11 @@ struct ToolLook
   std::vector<vtkSmartPointer<vtkPolyData>> Parts; ///< none for a point
   std::function<void(const ToolPose&, RigidPose*)> Place;
 };
+
+/// A capsule for each bone of a hand.
+ToolLook lookOf(const HandModel& hand);
+/// VTK's capsule, along z from the origin.
+vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length);
 
 /// What a window shows of a touch: bodies, the tools, their god-objects, the forces on the hand as arrows,
 /// the nodes under a force as dots, a status line.

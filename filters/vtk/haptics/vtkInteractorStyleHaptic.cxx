@@ -7,6 +7,7 @@
 #include "mouse_device.h"
 #include "touch_view.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCellPicker.h"
 #include "vtkCommand.h"
@@ -653,6 +654,11 @@ double vtkInteractorStyleHaptic::GetTickTime(double share)
 std::string vtkInteractorStyleHaptic::GetTimingTable()
 {
   return this->Internals->Session.TimingTable();
+}
+
+vtkPolyData* vtkInteractorStyleHaptic::GetTouchedModel()
+{
+  return this->Internals->Session.Touched();
 }
 
 vtkPolyData* vtkInteractorStyleHaptic::GetDeformedSurface(int body)

@@ -232,6 +232,10 @@ public:
   ///@}
 
   /**
+   * The first model as it was given or read; null without one.
+   */
+  vtkPolyData* GetTouchedModel();
+  /**
    * A body as it is drawn; its points move with each Update.
    */
   vtkPolyData* GetDeformedSurface(int body = 0);
