@@ -330,6 +330,15 @@ TEST(Scenes, FilesAreFoundFromTheScenesFolder) {
   EXPECT_TRUE(isRefused<std::runtime_error>([&] { readScene(folder); }, "cannot be opened"));
 }
 
+TEST(Scenes, OfTheDataFolderAreRead) {
+  const std::string folder = PALPATE_DATA_DIRECTORY "/scenes/";
+  const Scene ball = readScene(folder + "kidney_ball.json");
+  EXPECT_EQ(ball.tools[0].radius, 0.008);
+  EXPECT_EQ(ball.models[0].file, folder + "kidney.vtp");
+  EXPECT_TRUE(readScene(folder + "nodule_point.json").isOfPoints());
+  EXPECT_TRUE(readScene(folder + "two_kidneys_hand.json").effects.elasticElastic);
+}
+
 TEST(Scenes, MistakesInAFileNameTheFile) {
   const TemporaryPath file("{}");
   EXPECT_TRUE(isRefused([&] { readScene(file.path()); },

@@ -69,6 +69,11 @@ TriangleTree::TriangleTree(std::shared_ptr<const SurfaceMesh> mesh)
     : boxes_(std::make_unique<Boxes>(*mesh)) {}
 TriangleTree::~TriangleTree() = default;
 
+/// Of the surface and the tree together, as measured with CGAL 5.5 for 320 to 5120 triangles.
+double TriangleTree::bytesPerTriangle() noexcept {
+  return 152;
+}
+
 void TriangleTree::ask(NearestPoint& query) const noexcept {
   boxes_->ask(query);
 }

@@ -16,6 +16,9 @@ class TriangleTree {
   explicit TriangleTree(std::shared_ptr<const SurfaceMesh> mesh);
   ~TriangleTree();
 
+  /// Memory that it takes, for plans; 0 without CGAL.
+  static double bytesPerTriangle() noexcept;
+
   void ask(NearestPoint& query) const noexcept;
   void ask(FirstCrossing& query) const noexcept;
 

@@ -45,6 +45,9 @@ struct TriangleTree::Boxes {
 TriangleTree::TriangleTree(std::shared_ptr<const SurfaceMesh> mesh)
     : boxes_(new Boxes{std::move(mesh)}) {}
 TriangleTree::~TriangleTree() = default;
+double TriangleTree::bytesPerTriangle() noexcept {
+  return 0;
+}
 
 void TriangleTree::ask(NearestPoint& query) const noexcept {
   boxes_->ask(query);

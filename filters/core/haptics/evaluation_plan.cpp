@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptics/evaluation_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "contact/inverse_updates.h"
+#include "contact/pressure_mask.h"
+#include "mesh/triangle_tree.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBlock = 9;       ///< numbers of a block of Green's functions
+constexpr double kNumber = 8;      ///< bytes
+constexpr int kMostSamples = 256;  ///< vertices and triangles whose masks are looked at
+constexpr int kFingertips = 5;
+constexpr double kFingertip = 0.045;  ///< of a hand's length
+constexpr double kSnapshots = 3;      ///< that a servo loop keeps
+
+// Flops, counted in the sources.
+constexpr double kTurnedBlock = 126;  ///< a block that is turned twice and scaled
+constexpr double kRankThree = 162;    ///< an update of the inverse, a pair of contacts
+constexpr double kPointTick = 600;    ///< a point: stiffness, its norm, slip
+constexpr double kProximity = 30;     ///< a distance to a ball
+constexpr double kTorque = 15;        ///< a contact's torque
+
+/// Nodes that a tool touches.
+struct Touched {
+  double loaded, watched, rim;  ///< rim: nodes that a metre of travel brings in
+};
+
+/// What is left behind is watched to twice the margin.
+Touched touchedBy(double radius, const BodySizes& body, double depth, double margin) {
+  const double effective = 1 / (1 / radius + 1 / body.radius);
+  const double ahead = 2 * effective * (depth + margin);  // radius of the watch, squared
+  const double behind = 2 * effective * (depth + 2 * margin);
+  return {kPi * effective * depth / body.nodeArea, kPi * (ahead + behind) / 2 / body.nodeArea,
+          2 * std::sqrt(ahead) / body.nodeArea};
+}
+
+/// Shapes of a tool that touch at a time, and their radius, m.
+std::pair<int, double> roundingOf(const SceneTool& tool) {
+  switch (tool.shape) {
+    case ToolShape::Sphere:
+    case ToolShape::Capsule:
+      return {1, tool.radius};
+    case ToolShape::Hand:
+      return {kFingertips, kFingertip * tool.length};
+    default:
+      return {1, std::numeric_limits<double>::infinity()};
+  }
+}
+
+int partsOf(const SceneTool& tool) {
+  return tool.shape == ToolShape::Hand ? kHandCapsuleCount : 1;
+}
+
+/// A plan in the making.
+class Planner {
+ public:
+  Planner(const Scene& scene, const std::vector<BodySizes>& bodies, const ExpectedTouch& touch)
+      : scene_(scene), bodies_(bodies), touch_(touch), first_(bodies.front()) {
+    plan_.rate = scene.servo.rate;
+    loadedOf_.assign(bodies.size(), 0);
+    if (scene.isOfPoints())
+      planPoints();
+    else
+      planShapes();
+    plan_.loaded = loadedOf_[0];
+    planFrame();
+    plan_.memory.push_back({"snapshots of contacts", kSnapshots * snapshotBytes_});
+  }
+  EvaluationPlan take() { return std::move(plan_); }
+
+ private:
+  double depth(const BodySizes& body) const { return touch_.depth > 0 ? touch_.depth : body.edge; }
+
+  void planPoints() {
+    const double tools = static_cast<double>(scene_.tools.size());
+    loadedOf_[0] = std::min<double>(first_.freeNodes, tools * first_.pointNodes);
+    const double blocks = first_.freeNodes * (first_.maskNodesSquared + first_.maskNodes);
+    plan_.setup.push_back({"stiffness of the surface", first_.maskNodes, double(first_.freeNodes),
+                           2 * kBlock * blocks, kNumber * kBlock * blocks});
+    plan_.tick.push_back(
+        {"points that stick and slide", 0, 0, tools * kPointTick, tools * 3 * kNumber * kBlock});
+    const double perNode = kNumber * (kBlock + 2) + 1. / 8 + sizeof(VertexMask) + sizeof(int);
+    const double perMask = 2 * kAllocation + (kNumber + sizeof(int)) * first_.maskNodes;
+    plan_.memory.push_back({"stiffness of the surface and its masks",
+                            first_.nodes * perNode + first_.freeNodes * perMask});
+    constexpr double perSide = 2 * sizeof(int);
+    plan_.memory.push_back({"search and walks on the surface",
+                            first_.triangles * (3 * perSide + TriangleTree::bytesPerTriangle())});
+    snapshotBytes_ = first_.nodes * kLoadBytes;
+  }
+
+  void planShapes() {
+    const double margin = scene_.solver.margin > 0 ? scene_.solver.margin : first_.edge / 2;
+    Touched sum{0, 0, 0};
+    double parts = 0;
+    const auto add = [&](double count, double radius) {
+      const Touched one = touchedBy(radius, first_, depth(first_), margin);
+      sum.loaded += count * one.loaded;
+      sum.watched += count * one.watched;
+      sum.rim += count * one.rim;
+      return one.loaded;
+    };
+    for (const SceneTool& tool : scene_.tools) {
+      const auto [count, radius] = roundingOf(tool);
+      add(count, radius);
+      parts += partsOf(tool);
+    }
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+      const double touching = add(1, bodies_[i].radius) * first_.nodeArea;  // m^2
+      // Corners of the triangles that are met: half an edge more all round.
+      const double reach = std::sqrt(touching / kPi) + bodies_[i].edge / 2;
+      loadedOf_[i] =
+          std::min<double>(bodies_[i].freeNodes, kPi * reach * reach / bodies_[i].nodeArea);
+      parts += 1;
+      plan_.memory.push_back(
+          {"search on partner " + std::to_string(i),
+           bodies_[i].triangles * (9 * kNumber + TriangleTree::bytesPerTriangle()) +
+               3 * kNumber * bodies_[i].nodes});
+    }
+    const double most = std::min(scene_.solver.capacity, first_.nodes);
+    plan_.watched = std::min(most, sum.watched);
+    loadedOf_[0] = std::min(plan_.watched, sum.loaded);
+    planSolve(sum.rim * touch_.speed / scene_.servo.rate, parts);
+    planSolverMemory(parts);
+  }
+
+  /// @param entering  vertices that enter the watch in a tick, and leave it.
+  void planSolve(double entering, double parts) {
+    const double s = loadedOf_[0], w = plan_.watched;
+    const double blocks = entering * ((first_.reciprocal ? 1 : 2) * w + 1);
+    plan_.tick.push_back({"compliance of vertices that come near", w, entering,
+                          kTurnedBlock * blocks, kNumber * kBlock * blocks});
+    plan_.tick.push_back({"search for vertices that come near", 0, 0,
+                          parts * first_.nodes + 3 * kProximity * w,
+                          parts * first_.nodes * (kNumber + 1)});
+    const double products = scene_.solver.linearisations * (touch_.iterations + 2) + 1;
+    const double solves = scene_.solver.linearisations * touch_.iterations;
+    const double updates = w > 0 ? 2 * entering * s / w : 0;
+    plan_.tick.push_back(
+        {"unilateral contact", 0, 0,
+         2 * kBlock * (products * s * w + solves * s * s) + kRankThree * updates * s * s,
+         kNumber * kBlock * (products * s * w + solves * s * s + 3 * updates * s * s)});
+    if (scene_.effects.torque) plan_.tick.push_back({"torque", 0, 0, kTorque * w, kNumber * 6 * w});
+  }
+
+  void planSolverMemory(double parts) {
+    const double c = scene_.solver.capacity, stride = padded(3 * scene_.solver.capacity);
+    constexpr double perContact = 1000;  // sites, conditions, shares, borders and scratch
+    plan_.memory.push_back({"matrices of the contact solver",
+                            3 * kNumber * stride * 3 * c + 16 * kNumber * stride + perContact * c});
+    plan_.memory.push_back({"search for vertices", parts * first_.nodes * (kNumber + 1)});
+    snapshotBytes_ = 4 * c * kLoadBytes;
+  }
+
+  void planFrame() {
+    const DeformationRows rows = scene_.effects.deformation;
+    for (std::size_t i = 0; i < bodies_.size() && rows != DeformationRows::None; ++i) {
+      const BodySizes& body = bodies_[i];
+      const double count = rows == DeformationRows::All       ? body.nodes
+                           : rows == DeformationRows::Contact ? loadedOf_[i]
+                                                              : touch_.visible * body.nodes;
+      const std::string which = i ? " of partner " + std::to_string(i) : "";
+      addRows("deformation" + which, count, loadedOf_[i]);
+      plan_.memory.push_back({"displacements" + which, 3 * kNumber * body.nodes});
+    }
+    if (scene_.effects.probes.empty()) return;
+    double count = 0;
+    for (const SceneProbe& probe : scene_.effects.probes) count += probe.node >= 0 ? 1 : 3;
+    if (rows != DeformationRows::All) addRows("probes", count, loadedOf_[0]);
+    plan_.memory.push_back(
+        {"probes",
+         2 * kNumber * count + 4 * kNumber * static_cast<double>(scene_.effects.probes.size())});
+  }
+
+  void addRows(const std::string& what, double rows, double columns) {
+    const double blocks = rows * columns;
+    plan_.frame.push_back({what, rows, columns, 2 * kBlock * blocks, kNumber * kBlock * blocks});
+  }
+
+  static constexpr double kAllocation = 12;  ///< bytes that a block of heap memory costs besides
+  static constexpr double kLoadBytes = 2 * sizeof(int) + sizeof(Eigen::Vector3d);
+
+  const Scene& scene_;
+  const std::vector<BodySizes>& bodies_;
+  const ExpectedTouch& touch_;
+  const BodySizes& first_;
+  std::vector<double> loadedOf_;  ///< nodes under forces, a body
+  double snapshotBytes_ = 0;
+  EvaluationPlan plan_;
+};
+
+/// Every so many, that there be at most kMostSamples.
+int strideOf(int count) {
+  return std::max(1, (count + kMostSamples - 1) / kMostSamples);
+}
+
+void measureMasks(const SceneBody& body, const SceneEffects& effects, BodySizes& sizes) {
+  const SurfaceMesh& mesh = *body.mesh;
+  const BoundaryConditions& conditions = body.greens->info().conditions;
+  const double radius =
+      effects.maskRadiusEdges > 0 ? effects.maskRadiusEdges * sizes.edge : effects.maskRadius;
+  const PressureMasks masks(mesh, conditions, effects.maskShape, radius);
+  const std::vector<int> free = conditions.freeNodes();
+  double samples = 0;
+  for (std::size_t i = 0; i < free.size(); i += strideOf(static_cast<int>(free.size()))) {
+    const double count = static_cast<double>(masks.at(free[i]).nodes.size());
+    sizes.maskNodes += count;
+    sizes.maskNodesSquared += count * count;
+    ++samples;
+  }
+  sizes.maskNodes /= samples;
+  sizes.maskNodesSquared /= samples;
+  double area = 0;
+  for (int f = 0; f < mesh.triangleCount(); f += strideOf(mesh.triangleCount())) {
+    std::set<int> under;
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = mesh.triangles()(k, f);
+      if (conditions.isFixed(vertex)) continue;
+      const VertexMask mask = masks.at(vertex);
+      under.insert(mask.nodes.begin(), mask.nodes.end());
+    }
+    if (under.empty()) continue;
+    sizes.pointNodes += mesh.triangleAreas()[f] * static_cast<double>(under.size());
+    area += mesh.triangleAreas()[f];
+  }
+  if (area > 0) sizes.pointNodes /= area;
+}
+
+/// With three digits and a prefix.
+std::string engineering(double value) {
+  static constexpr const char* kPrefixes[] = {"", "k", "M", "G", "T", "P"};
+  std::size_t prefix = 0;
+  while (std::abs(value) >= 999.5 && prefix + 1 < std::size(kPrefixes)) {
+    value /= 1000;
+    ++prefix;
+  }
+  std::ostringstream text;
+  text << std::setprecision(3) << value << (*kPrefixes[prefix] ? " " : "") << kPrefixes[prefix];
+  return text.str();
+}
+
+constexpr int kNameWidth = 42, kNumberWidth = 10;
+
+void writeTable(std::ostringstream& text, const std::string& title,
+                const std::vector<PlannedWork>& list) {
+  text << std::left << std::setw(kNameWidth) << title << std::right;
+  for (const char* head : {"rows", "columns", "flops", "bytes"})
+    text << std::setw(kNumberWidth) << head;
+  text << '\n';
+  const auto write = [&](const PlannedWork& work) {
+    text << std::left << std::setw(kNameWidth) << "  " + work.what << std::right;
+    for (const double number : {work.rows, work.columns, work.flops, work.bytes})
+      text << std::setw(kNumberWidth) << (number > 0 ? engineering(number) : "-");
+    text << '\n';
+  };
+  if (list.empty()) text << "  nothing\n";
+  for (const PlannedWork& work : list) write(work);
+  if (list.size() > 1) {
+    PlannedWork sum = total(list);
+    sum.rows = sum.columns = 0;
+    write(sum);
+  }
+}
+
+}  // namespace
+
+BodySizes sizesOf(const SceneBody& body, const Scene& scene) {
+  BodySizes sizes;
+  const SurfaceMesh& mesh = *body.mesh;
+  sizes.nodes = mesh.vertexCount();
+  sizes.freeNodes = static_cast<int>(body.greens->info().conditions.freeNodes().size());
+  sizes.columns = body.greens->columnCount();
+  sizes.triangles = mesh.triangleCount();
+  sizes.nodeArea = mesh.vertexAreas().mean();
+  sizes.edge = mesh.meanEdgeLength();
+  sizes.radius = mesh.diagonal() / (2 * std::sqrt(3.0));
+  sizes.reciprocal = body.greens->info().reciprocal;
+  if (scene.isOfPoints()) measureMasks(body, scene.effects, sizes);
+  return sizes;
+}
+
+EvaluationPlan planEvaluation(const Scene& scene, const std::vector<BodySizes>& bodies,
+                              const ExpectedTouch& touch) {
+  if (bodies.empty() || bodies.size() != scene.models.size())
+    throw std::invalid_argument("the scene has " + std::to_string(scene.models.size()) +
+                                " models, but there are the sizes of " +
+                                std::to_string(bodies.size()));
+  return Planner(scene, bodies, touch).take();
+}
+
+PlannedWork total(const std::vector<PlannedWork>& list) {
+  PlannedWork sum{"together"};
+  for (const PlannedWork& work : list) {
+    sum.rows += work.rows;
+    sum.columns += work.columns;
+    sum.flops += work.flops;
+    sum.bytes += work.bytes;
+  }
+  return sum;
+}
+
+double totalBytes(const std::vector<PlannedMemory>& list) {
+  return std::accumulate(list.begin(), list.end(), 0.,
+                         [](double sum, const auto& entry) { return sum + entry.bytes; });
+}
+
+std::string toText(const EvaluationPlan& plan) {
+  std::ostringstream text;
+  text << engineering(plan.loaded) << " nodes under forces";
+  if (plan.watched > 0) text << ", " << engineering(plan.watched) << " watched";
+  text << "\n\n";
+  if (!plan.setup.empty()) {
+    writeTable(text, "once", plan.setup);
+    text << '\n';
+  }
+  writeTable(text, "a tick, " + engineering(plan.rate) + " a second", plan.tick);
+  text << '\n';
+  writeTable(text, "a frame", plan.frame);
+  text << "\nmemory\n";
+  for (const PlannedMemory& entry : plan.memory)
+    text << std::left << std::setw(kNameWidth) << "  " + entry.what << std::right
+         << std::setw(4 * kNumberWidth) << engineering(entry.bytes) + "B" << '\n';
+  text << std::left << std::setw(kNameWidth) << "  together" << std::right
+       << std::setw(4 * kNumberWidth) << engineering(totalBytes(plan.memory)) + "B" << '\n';
+  return text.str();
+}
+
+}  // namespace palpate
