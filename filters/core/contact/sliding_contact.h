@@ -47,9 +47,9 @@ struct TouchedSurface {
 ///     (f_0 + f_1) / 2 . dx^H = [u^T K u / 2] + (f_0 + f_1) / 2 . dx^C - u_0^T dK u_1 / 2,
 /// and slipping costs f_t . dx^C >= 0. So a closed path gives back at most
 ///     sum of |u_0^T dK u_1| / 2 + sum of f_n |n . dx^C|:
-/// half of what the stiffness varies by along the way times the depth squared, and what the
-/// interpolated normals n differ from the triangles' by. Both vanish with the size of the
-/// triangles' differences; a contact that sticks gives back nothing.
+/// half of what the stiffness varies by along the way times the depth squared (as much as that of a
+/// body that is stiffer here than there), and what the interpolated normals n differ from the
+/// triangles' by, which vanishes as these get smaller. A contact that sticks gives back nothing.
 ///
 /// One thread advances it. Nothing here but construction allocates, locks or throws.
 class SlidingContact {
