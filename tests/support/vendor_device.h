@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "haptics/haptic_device.h"
-#include "haptics/newest_value.h"
+#include "haptics/latest_value.h"
 #include "support/stand_in_sdk.h"
 
 namespace palpate::test {
@@ -91,8 +91,8 @@ class VendorDevice final : public HapticDevice {
 
   const int handle_;
   DeviceInfo info_;
-  NewestValue<DeviceState> states_;
-  NewestValue<Wrench> wrenches_;
+  LatestValue<DeviceState> states_{DeviceState()};
+  LatestValue<Wrench> wrenches_{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
   std::atomic<bool> isThere_{true}, isStopping_{false};
   DeviceState newest_;
   std::thread thread_;

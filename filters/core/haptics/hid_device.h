@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "haptics/hid_protocol.h"
-#include "haptics/newest_value.h"
+#include "haptics/latest_value.h"
 
 namespace palpate {
 
@@ -95,8 +95,8 @@ class HidDevice final : public HapticDevice {
   bool isResting_ = true;
 
   // Between the two.
-  NewestValue<Entry> states_;
-  NewestValue<Wrench> wrenches_;
+  LatestValue<Entry> states_{Entry()};
+  LatestValue<Wrench> wrenches_{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
   std::atomic<std::uint64_t> connection_{0};  ///< 0 while the device is away
   std::atomic<bool> hasArrived_{true}, stopping_{false};
   AtomicCounts counts_;

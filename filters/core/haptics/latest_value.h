@@ -30,11 +30,25 @@ class LatestValue {
     writing_ = between_.exchange(writing_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
+  /// Both in one, for values that are cheap to copy.
+  void put(const Value& value) noexcept {
+    writable() = value;
+    publish();
+  }
+
   /// Lets the reader's slot be the newest value.
   /// @return whether there was a newer one.
   bool update() noexcept {
     if (!(between_.load(std::memory_order_relaxed) & kFresh)) return false;
     reading_ = between_.exchange(reading_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+
+  /// Copies it, for the reader.
+  /// @return false, with `value` untouched, if nothing was published since the last call.
+  bool take(Value& value) noexcept {
+    if (!update()) return false;
+    value = latest();
     return true;
   }
 

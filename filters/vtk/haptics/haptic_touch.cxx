@@ -4,6 +4,7 @@
 #include "haptic_touch.h"
 
 #include "conversion.h"
+#include "haptics/evaluation_plan.h"
 #include "haptics/hid_bus.h"
 #include "haptics/point_touch.h"
 #include "haptics/simulated_device.h"
@@ -163,7 +164,12 @@ std::string HapticTouch::EvaluationPlan()
   {
     throw std::invalid_argument("there is no model to plan for");
   }
-  return "";
+  std::vector<BodySizes> sizes;
+  for (const SceneBody& body : this->Loaded)
+  {
+    sizes.push_back(sizesOf(body, this->Described));
+  }
+  return toText(planEvaluation(this->Described, sizes));
 }
 
 void HapticTouch::SetTool(double radius)

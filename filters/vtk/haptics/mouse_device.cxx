@@ -13,10 +13,7 @@ MouseDevice::MouseDevice(double period, double speed)
 
 void MouseDevice::Put(const ToolPose& pose) noexcept
 {
-  Goal& goal = this->Goals.writable();
-  goal.Pose = pose;
-  goal.Jumps = this->Jumps;
-  this->Goals.publish();
+  this->Goals.put({ pose, this->Jumps });
 }
 
 void MouseDevice::PutAtOnce(const ToolPose& pose) noexcept
