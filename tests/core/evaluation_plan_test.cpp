@@ -154,6 +154,22 @@ TEST(EvaluationPlans, PredictTheStiffnessOfTheSurface) {
   }
 }
 
+TEST(EvaluationPlans, PredictGravity) {
+  Scene scene = sceneOf(kBall, "\"deformation\": \"none\"");
+  scene.models[0].density = 1e-3;
+  scene.effects.gravity = {0, 0, -1};
+  const EvaluationPlan plan = planOf(scene);
+  const auto greens = std::make_shared<CountingGreens>(body().greens);
+  const SceneBody touched = {greens, body().mesh,
+                             Eigen::VectorXi::Zero(body().mesh->triangleCount())};
+  const TouchSession warm(scene, {touched});  // arenas have their size
+  greens->clearCounts();
+  const double before = heapBytes();
+  const TouchSession session(scene, {touched});
+  expectNear(plan.setup.at(0).bytes, greens->counts().bytes, "gravity");
+  expectNear(totalBytes(plan.memory) - plan.memory.back().bytes, heapBytes() - before, "memory");
+}
+
 /// Ticks ask for the compliance of vertices that come near, and of nothing else.
 TEST(EvaluationPlans, PredictTheTicksOfAStroke) {
   for (const double radius : {0.6, 1.0, 2.0})

@@ -208,6 +208,42 @@ TEST(TouchSessions, PartnersMeetTheFirstAndDeform) {
   EXPECT_GT(session.displacement(1)(2, pole), 0);
 }
 
+/// What is touched hangs under its weight: a ball finds the sagged surface, not the given one.
+TEST(TouchSessions, TouchTheSurfaceAsItHangs) {
+  const TouchedBody body = touchedSphere(2, true);
+  SceneBody given{body.greens, body.mesh, Eigen::VectorXi::Zero(body.mesh->triangleCount())};
+  const std::string model = "{\"file\": \"sphere\", \"density\": 0.1}";
+  const auto session = [&](const std::string& effects) {
+    return TouchSession(parseScene(sceneText(kBall, effects, model)), {given});
+  };
+  const TouchSession still = session("");
+  EXPECT_EQ(still.mesh(0), body.mesh);
+  const TouchSession hung = session("\"gravity\": [0, 0, -1]");
+  int pole;
+  body.mesh->points().row(2).maxCoeff(&pole);
+  const double sag = body.mesh->points()(2, pole) - hung.mesh(0)->points()(2, pole);
+  EXPECT_GT(sag, 0.01);
+  ToolPose pose;
+  Wrench wrench;
+  pose.position = {0, 0, 1.3 - sag / 2};  // within the given surface, above the sagged one
+  still.model()->step(&pose, &wrench);
+  EXPECT_GT(wrench.force.z(), 0);
+  hung.model()->step(&pose, &wrench);
+  EXPECT_TRUE(wrench.force.isZero(0));
+  pose.position.z() -= sag;
+  hung.model()->step(&pose, &wrench);
+  EXPECT_GT(wrench.force.z(), 0);
+  // A partner that lies upside down hangs the other way in its own frame.
+  const Scene two =
+      parseScene(sceneText(kBall, "\"gravity\": [0, 0, -1], \"elastic_elastic\": true",
+                           model + ", {\"file\": \"b\", \"density\": 0.1, \"position\": [0, 0, 5], "
+                                   "\"orientation\": [0, 1, 0, 0]}"));
+  const TouchSession both(two, {given, given});
+  EXPECT_GT(both.mesh(1)->points()(2, pole), body.mesh->points()(2, pole) + sag / 2);
+  given.smoothPatches = {};
+  EXPECT_TRUE(isRefused([&] { session("\"gravity\": [0, 0, -1]"); }, "patch numbers"));
+}
+
 /// Of a session without deformation and probes, a frame costs nothing at all; and no session
 /// starts a thread or loads a library.
 TEST(TouchSessions, PayForNothingThatIsNotAskedFor) {

@@ -76,6 +76,7 @@ class Planner {
       planPoints();
     else
       planShapes();
+    if (!scene.effects.gravity.isZero(0)) planGravity();
     plan_.loaded = loadedOf_[0];
     planFrame();
     plan_.memory.push_back({"snapshots of contacts", kSnapshots * snapshotBytes_});
@@ -84,6 +85,19 @@ class Planner {
 
  private:
   double depth(const BodySizes& body) const { return touch_.depth > 0 ? touch_.depth : body.edge; }
+
+  /// All rows for all free columns, and the surface once more.
+  void planGravity() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodySizes& body = bodies_[i];
+      const double blocks = double(2 * body.nodes - body.freeNodes) * body.freeNodes;
+      const std::string which = i ? " of partner " + std::to_string(i) : "";
+      plan_.setup.push_back({"gravity" + which, double(body.nodes), double(body.freeNodes),
+                             2 * kBlock * blocks, kNumber * kBlock * blocks});
+      plan_.memory.push_back({"surface under gravity" + which,
+                              kMeshVertex * body.nodes + kMeshTriangle * body.triangles});
+    }
+  }
 
   void planPoints() {
     const double tools = static_cast<double>(scene_.tools.size());
@@ -191,6 +205,8 @@ class Planner {
     plan_.frame.push_back({what, rows, columns, 2 * kBlock * blocks, kNumber * kBlock * blocks});
   }
 
+  static constexpr double kMeshVertex = 7 * kNumber + 2 * sizeof(int);  ///< bytes of a SurfaceMesh
+  static constexpr double kMeshTriangle = 4 * kNumber + 6 * sizeof(int);
   static constexpr double kAllocation = 12;  ///< bytes that a block of heap memory costs besides
   static constexpr double kLoadBytes = 2 * sizeof(int) + sizeof(Eigen::Vector3d);
 

@@ -23,6 +23,11 @@ template <class Read>
 void readIf(JsonSection& section, const char* key, const Read& read) {
   if (const Json* found = section.find(key)) read(*found, section.path(key));
 }
+template <class Value, class Read, class... Limits>
+void readIf(JsonSection& section, const char* key, Value& value, const Read& read,
+            Limits... limits) {
+  if (const Json* found = section.find(key)) value = read(*found, section.path(key), limits...);
+}
 
 Eigen::Vector3d readVector(const Json& value, const std::string& path) {
   return readNumberList(value, path, 3, kFarthest);
@@ -54,25 +59,16 @@ double readFriction(const Json& value, const std::string& path) {
 WorkspaceMapping readMapping(const Json& value, const std::string& path) {
   JsonSection section(value, path);
   WorkspaceMapping mapping;
-  readIf(section, "scale", [&](const Json& found, const std::string& at) {
-    mapping.scale = readPositive(found, at, kFarthest);
-  });
-  readIf(section, "origin",
-         [&](const Json& found, const std::string& at) { mapping.origin = readVector(found, at); });
-  readIf(section, "rotation", [&](const Json& found, const std::string& at) {
-    mapping.rotation = readRotation(found, at);
-  });
-  readIf(section, "force_scale", [&](const Json& found, const std::string& at) {
-    mapping.forceScale = readNotNegative(found, at, kFarthest);
-  });
+  readIf(section, "scale", mapping.scale, readPositive, kFarthest);
+  readIf(section, "origin", mapping.origin, readVector);
+  readIf(section, "rotation", mapping.rotation, readRotation);
+  readIf(section, "force_scale", mapping.forceScale, readNotNegative, kFarthest);
   section.requireNothingElse();
   return mapping;
 }
 
 void readHid(JsonSection& section, SceneDevice& device) {
-  readIf(section, "description", [&](const Json& found, const std::string& at) {
-    device.description = readText(found, at);
-  });
+  readIf(section, "description", device.description, readText);
   const bool isDescribed = !device.description.empty();
   for (const char* key : {"vendor_id", "product_id"}) {
     const Json* found = section.find(key);
@@ -99,9 +95,7 @@ SceneDevice readDevice(const Json& value, const std::string& path) {
   if (device.type == DeviceType::Scripted)
     device.file = readText(section.need("file"), section.path("file"));
   if (device.type == DeviceType::Hid) readHid(section, device);
-  readIf(section, "mapping", [&](const Json& found, const std::string& at) {
-    device.mapping = readMapping(found, at);
-  });
+  readIf(section, "mapping", device.mapping, readMapping);
   section.requireNothingElse();
   return device;
 }
@@ -151,9 +145,7 @@ SceneTool readTool(const Json& value, const std::string& path,
     tool.file = readText(section.need("file"), section.path("file"));
   if (tool.shape == ToolShape::Hand) {
     tool.length = kHandLength;
-    readIf(section, "length", [&](const Json& found, const std::string& at) {
-      tool.length = readPositive(found, at, kFarthest);
-    });
+    readIf(section, "length", tool.length, readPositive, kFarthest);
     readIf(section, "side", [&](const Json& found, const std::string& at) {
       tool.side =
           readNamed<HandSide>(found, at, {{"left", HandSide::Left}, {"right", HandSide::Right}});
@@ -267,17 +259,10 @@ SceneEffects readEffects(const Json& value, bool ofPoints) {
     friction.requireNothingElse();
   });
   readContact(section, ofPoints, effects);
-  readIf(section, "gravity", [&](const Json& found, const std::string& at) {
-    effects.gravity = readVector(found, at);
-  });
-  readIf(section, "probes",
-         [&](const Json& found, const std::string& at) { effects.probes = readProbes(found, at); });
-  readIf(section, "stiffness_limit", [&](const Json& found, const std::string& at) {
-    effects.stiffnessLimit = readNotNegative(found, at, 1e15);
-  });
-  readIf(section, "stiffness_scale", [&](const Json& found, const std::string& at) {
-    effects.stiffnessScale = readPositive(found, at, 1e9);
-  });
+  readIf(section, "gravity", effects.gravity, readVector);
+  readIf(section, "probes", effects.probes, readProbes);
+  readIf(section, "stiffness_limit", effects.stiffnessLimit, readNotNegative, 1e15);
+  readIf(section, "stiffness_scale", effects.stiffnessScale, readPositive, 1e9);
   section.requireNothingElse();
   return effects;
 }
@@ -302,9 +287,7 @@ SceneModel readModel(const Json& value, const std::string& path, bool isFirst,
     if (isFirst) refuseKey(at, "is between a further model and the first: see effects.friction");
     model.friction = readFriction(found, at);
   });
-  readIf(section, "density", [&](const Json& found, const std::string& at) {
-    model.density = readPositive(found, at, 1e6);
-  });
+  readIf(section, "density", model.density, readPositive, 1e6);
   section.requireNothingElse();
   if (!effects.gravity.isZero(0) && model.density == 0)
     refuseKey(path + ".density", "is missing: with gravity, each model has one");
@@ -330,20 +313,11 @@ ServoSettings readServo(const Json& value) {
     servo.rate = readPositive(found, at, 10000);
     if (servo.rate < 250) refuseKey(at, "must be a number from 250 to 10000, not " + shown(found));
   });
-  readIf(section, "budget", [&](const Json& found, const std::string& at) {
-    servo.budget = readPositive(found, at, 1);
-  });
-  readIf(section, "snapshot_ticks", [&](const Json& found, const std::string& at) {
-    servo.snapshotTicks = readInteger(found, at, 1, 10000);
-  });
-  readIf(section, "passivity_damping", [&](const Json& found, const std::string& at) {
-    servo.passivityDamping = readNotNegative(found, at, kFarthest);
-  });
-  readIf(section, "real_time",
-         [&](const Json& found, const std::string& at) { servo.realTime = readFlag(found, at); });
-  readIf(section, "processor", [&](const Json& found, const std::string& at) {
-    servo.processor = readInteger(found, at, 0, 4095);
-  });
+  readIf(section, "budget", servo.budget, readPositive, 1);
+  readIf(section, "snapshot_ticks", servo.snapshotTicks, readInteger, 1, 10000);
+  readIf(section, "passivity_damping", servo.passivityDamping, readNotNegative, kFarthest);
+  readIf(section, "real_time", servo.realTime, readFlag);
+  readIf(section, "processor", servo.processor, readInteger, 0, 4095);
   section.requireNothingElse();
   return servo;
 }
@@ -351,24 +325,12 @@ ServoSettings readServo(const Json& value) {
 UnilateralContactSettings readSolver(const Json& value) {
   JsonSection section(value, "solver");
   UnilateralContactSettings solver;
-  readIf(section, "capacity", [&](const Json& found, const std::string& at) {
-    solver.capacity = readInteger(found, at, 1, 10000);
-  });
-  readIf(section, "margin", [&](const Json& found, const std::string& at) {
-    solver.margin = readNotNegative(found, at, kFarthest);
-  });
-  readIf(section, "linearisations", [&](const Json& found, const std::string& at) {
-    solver.linearisations = readInteger(found, at, 1, 1000);
-  });
-  readIf(section, "tolerance", [&](const Json& found, const std::string& at) {
-    solver.solver.tolerance = readPositive(found, at, 1);
-  });
-  readIf(section, "largest_iterations", [&](const Json& found, const std::string& at) {
-    solver.solver.largestIterations = readInteger(found, at, 1, 1000000);
-  });
-  readIf(section, "largest_updates", [&](const Json& found, const std::string& at) {
-    solver.solver.largestUpdates = readInteger(found, at, 0, 1000000);
-  });
+  readIf(section, "capacity", solver.capacity, readInteger, 1, 2000);
+  readIf(section, "margin", solver.margin, readNotNegative, kFarthest);
+  readIf(section, "linearisations", solver.linearisations, readInteger, 1, 1000);
+  readIf(section, "tolerance", solver.solver.tolerance, readPositive, 1);
+  readIf(section, "largest_iterations", solver.solver.largestIterations, readInteger, 1, 1000000);
+  readIf(section, "largest_updates", solver.solver.largestUpdates, readInteger, 0, 1000000);
   section.requireNothingElse();
   return solver;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "contact/mesh_shape.h"
+#include "greens/gravity.h"
 #include "haptics/hand_tool.h"
 #include "haptics/point_touch.h"
 #include "haptics/tool_touch.h"
@@ -14,14 +15,6 @@
 
 namespace palpate {
 namespace {
-
-/// Green's functions answer to loads on the surface, and gravity acts within.
-void requireNoGravity(const SceneEffects& effects) {
-  if (!effects.gravity.isZero(0))
-    throw std::invalid_argument(
-        "effects.gravity must be [0, 0, 0]: the stored Green's functions answer to loads on the "
-        "surface alone, and gravity acts within the body");
-}
 
 void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
   if (bodies.size() != scene.models.size())
@@ -31,6 +24,17 @@ void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
     if (!bodies[i].greens || !bodies[i].mesh)
       throw std::invalid_argument("the scene's model " + std::to_string(i) +
                                   " has no surface or no Green's functions");
+}
+
+/// As it hangs under its weight. In linear elasticity, the Green's functions of the body as it was
+/// given hold there too.
+std::shared_ptr<const SurfaceMesh> hung(const SceneBody& body, const SceneModel& model,
+                                        const Eigen::Vector3d& gravity) {
+  const Eigen::Vector3d weight = model.density * (model.pose.orientation.conjugate() * gravity);
+  return std::make_shared<const SurfaceMesh>(
+      body.mesh->points() +
+          gravityDisplacement(*body.greens, *body.mesh, body.smoothPatches, weight),
+      body.mesh->triangles());
 }
 
 std::shared_ptr<const TouchTool> toolOf(const SceneTool& tool,
@@ -97,14 +101,18 @@ std::shared_ptr<TouchModel> toolTouch(
 
 TouchSession::TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
                            const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes)
-    : rows_(scene.effects.deformation), stiffnessScale_(scene.effects.stiffnessScale) {
+    : bodies_(bodies),
+      rows_(scene.effects.deformation),
+      stiffnessScale_(scene.effects.stiffnessScale) {
   requireBodies(scene, bodies);
-  requireNoGravity(scene.effects);
   if (scene.tools.empty())
     throw std::invalid_argument("there is no tool to touch the surface with");
-  greens_ = bodies[0].greens;
   placeProbes(scene.effects.probes, bodies[0]);
-  model_ = scene.isOfPoints() ? pointTouch(scene, bodies[0]) : toolTouch(scene, bodies, toolMeshes);
+  if (!scene.effects.gravity.isZero(0))
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      bodies_[i].mesh = hung(bodies[i], scene.models[i], scene.effects.gravity);
+  model_ =
+      scene.isOfPoints() ? pointTouch(scene, bodies_[0]) : toolTouch(scene, bodies_, toolMeshes);
   if (rows_ == DeformationRows::None) return;
   computed_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -146,14 +154,14 @@ void TouchSession::computeProbes(const ContactSnapshot& snapshot) {
   const bool isKnown = rows_ == DeformationRows::All;
   if (!isKnown) {
     const SnapshotTractions tractions =
-        snapshotTractions(*greens_, snapshot, 0, Eigen::Matrix3d::Identity(), stiffnessScale_);
-    greens_->accumulate(nodeList(tractions.nodes), tractions.values, nodeList(probeNodes_),
+        snapshotTractions(greens(), snapshot, 0, Eigen::Matrix3d::Identity(), stiffnessScale_);
+    greens().accumulate(nodeList(tractions.nodes), tractions.values, nodeList(probeNodes_),
                         at.reshaped());
   }
   probes_.setZero();
   for (int probe = 0; probe < probes_.cols(); ++probe)
     for (int i = probeStarts_[probe]; i < probeStarts_[probe + 1]; ++i)
-      if (!greens_->isFixed(probeNodes_[i]))
+      if (!greens().isFixed(probeNodes_[i]))
         probes_.col(probe) += probeWeights_[i] * (isKnown ? displacement(0).col(probeNodes_[i])
                                                           : Eigen::Vector3d(at.col(i)));
 }

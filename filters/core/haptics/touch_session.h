@@ -17,6 +17,7 @@ namespace palpate {
 struct SceneBody {
   std::shared_ptr<const GreensFunctions> greens;
   std::shared_ptr<const SurfaceMesh> mesh;
+  Eigen::VectorXi smoothPatches = {};  ///< #F, as the Green's functions were made with; for gravity
 };
 
 /// A scene at work: the model that a servo loop steps, and the displacements that a slower thread
@@ -26,13 +27,17 @@ class TouchSession {
   /// @param bodies      one for each of the scene's models, in its order.
   /// @param toolMeshes  one for each of its tools, null but for meshes; may be empty without them.
   /// @throws std::invalid_argument if a body or a tool's mesh is missing, for a probe that is not
-  ///         on the first model, for gravity, which no model here bears; and as PointTouch,
-  ///         SurfaceStiffness and ToolTouch.
+  ///         on the first model; and as gravityDisplacement, PointTouch, SurfaceStiffness and
+  ///         ToolTouch.
   TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
                const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes = {});
 
   /// For ServoLoop.
   const std::shared_ptr<TouchModel>& model() const { return model_; }
+
+  /// A body before it is touched: as it was given, or as it hangs under its weight. From there on
+  /// displacements are counted.
+  const std::shared_ptr<const SurfaceMesh>& mesh(int body) const { return bodies_[body].mesh; }
 
   /// Computes the rows that the scene asks for. Rows that were computed before and are not now are
   /// zero again.
@@ -59,7 +64,9 @@ class TouchSession {
   void placeProbes(const std::vector<SceneProbe>& probes, const SceneBody& body);
   void computeProbes(const ContactSnapshot& snapshot);
 
-  std::shared_ptr<const GreensFunctions> greens_;  ///< of the first model
+  const GreensFunctions& greens() const { return *bodies_[0].greens; }
+
+  std::vector<SceneBody> bodies_;
   DeformationRows rows_;
   double stiffnessScale_;
   std::shared_ptr<TouchModel> model_;

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "greens/gravity.h"
+
+#include <stdexcept>
+
+namespace palpate {
+namespace {
+
+/// From where places are measured: the middle of the support, where u_p then is small.
+Eigen::Vector3d middleOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                         const std::vector<int>& nodes) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (int node : nodes) {
+    sum += greens.vertexArea(node) * mesh.points().col(node);
+    area += greens.vertexArea(node);
+  }
+  return area > 0 ? Eigen::Vector3d(sum / area) : sum;
+}
+
+}  // namespace
+
+Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                     const Eigen::VectorXi& patches,
+                                     const Eigen::Vector3d& weight) {
+  const GreensFunctionsInfo& info = greens.info();
+  if (info.domain != Domain::Interior)
+    throw std::invalid_argument("the space around a surface has no weight that it could bear");
+  const std::vector<int> fixed = info.conditions.fixedNodes(), free = info.conditions.freeNodes();
+  greens.requireColumns(nodeList(free));
+  const Eigen::Vector3d origin = middleOf(greens, mesh, fixed);
+  const Eigen::Vector3d c =
+      -(1 - 2 * info.material.poissonRatio()) / info.material.youngsModulus() * weight;
+  const auto particular = [&](int node) -> Eigen::Vector3d {
+    const Eigen::Vector3d x = mesh.points().col(node) - origin;
+    return c.dot(x) * x - x.squaredNorm() / 2 * c;
+  };
+
+  Eigen::Matrix3Xd tractions(3, mesh.triangleCount()), applied;
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    Eigen::Vector3d middle = -origin;
+    for (int k = 0; k < 3; ++k) middle += mesh.points().col(mesh.triangles()(k, f)) / 3;
+    tractions.col(f) = weight.dot(middle) * mesh.triangleNormals().col(f);
+  }
+  Eigen::Matrix3Xd displacement = solveFaceTractions(greens, mesh, patches, tractions, applied);
+
+  Eigen::VectorXd moved(3 * fixed.size());  // areas times displacements
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    moved.segment<3>(3 * k) = -greens.vertexArea(fixed[k]) * particular(fixed[k]);
+  Eigen::MatrixXd reactions(3 * fixed.size(), 3);
+  for (int node : free) {
+    greens.gather(nodeList(fixed), Eigen::Map<const Eigen::VectorXi>(&node, 1), reactions.data());
+    displacement.col(node) +=
+        particular(node) - reactions.transpose() * moved / greens.vertexArea(node);
+  }
+  for (int node : fixed) displacement.col(node).setZero();
+  return displacement;
+}
+
+}  // namespace palpate

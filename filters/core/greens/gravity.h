@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "greens/greens_functions.h"
+#include "mesh/surface_mesh.h"
+
+namespace palpate {
+
+/// The displacement of a body under its own weight, from Green's functions, which answer to loads
+/// on the surface alone. With the weight b per volume and c = -(1 - 2 nu) b / E, the field
+///     u_p = (c . x) x - |x|^2 c / 2,  stress -(b . x) 1,
+/// is in equilibrium with it; what remains is a body without weight that bears the traction
+/// (b . x) n where it is free and is displaced by -u_p where it is fixed. What the latter does to a
+/// free node j follows by Betti's theorem from the reactions to a force there, so that no fixed
+/// node's column is needed:
+///     u_j = -1 / a_j  sum over fixed k of a_k Xi_kj^T u_k.
+/// Exact but for the discretisation of the surface.
+///
+/// @param patches   #F, the smooth patches that the Green's functions were made with.
+/// @param weight    b, density times acceleration, N/m^3.
+/// @return 3 by #nodes, m; zero where fixed.
+/// @throws std::invalid_argument for an exterior domain, for a node whose column is missing, and as
+///         solveFaceTractions.
+Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                     const Eigen::VectorXi& patches, const Eigen::Vector3d& weight);
+
+}  // namespace palpate
