@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "haptics/tool_touch.h"
 #include "support/contact_bodies.h"
 #include "support/counting_greens.h"
 #include "support/process_state.h"
@@ -77,22 +78,27 @@ struct Course {
 
   /// Strokes the surface at a depth, by an arc over the top.
   void stroke(double depth, double radius, double speed, double rate) {
+    constexpr int sinking = 100;       // ticks that do not count
     const double turn = speed / rate;  // rad a tick: the speed is that at the surface
+    const auto* shapes = dynamic_cast<const ToolTouch*>(session.model().get());
     ToolPose pose;
     Wrench wrench;
     session.model()->reset();
+    greens->clearCounts();
     int ticks = 0;
     for (double angle = -0.9; angle < 0.9; angle += turn, ++ticks) {
-      const double sunk = std::min(1., ticks / 50.) * (depth + 0.2);
+      const double sunk = std::min(1., 2. * ticks / sinking) * (depth + 0.2);
       pose.position =
           (1 + radius + 0.2 - sunk) * Eigen::Vector3d(std::sin(angle), 0, std::cos(angle));
-      session.model()->step(&pose, &wrench);
-      if (ticks == 100) {
-        greens->clearCounts();
-      }
+      const ContactCertificate certificate = session.model()->step(&pose, &wrench);
+      if (ticks == sinking) greens->clearCounts();
+      if (ticks <= sinking || !shapes) continue;
+      watched += shapes->contact().watchedCount();
+      loaded += certificate.contactCount;
     }
-    tick.gatheredBlocks = greens->counts().gatheredBlocks / (ticks - 100);
-    tick.bytes = greens->counts().bytes / (ticks - 100);
+    for (double* sum : {&watched, &loaded}) *sum /= ticks - 1 - sinking;
+    tick.gatheredBlocks = greens->counts().gatheredBlocks / (ticks - 1 - sinking);
+    tick.bytes = greens->counts().bytes / (ticks - 1 - sinking);
   }
 
   int loadedNodes(const ContactSnapshot& snapshot) const {
@@ -181,9 +187,12 @@ TEST(EvaluationPlans, PredictTheTicksOfAStroke) {
       touch.speed = 3;
       Course course(scene);
       course.stroke(depth, radius, touch.speed, scene.servo.rate);
-      const PlannedWork& planned = planOf(scene, touch).tick.at(0);
-      expectNear(planned.bytes, course.tick.bytes,
-                 "radius " + std::to_string(radius) + ", depth " + std::to_string(depth));
+      const EvaluationPlan plan = planOf(scene, touch);
+      const std::string what =
+          "radius " + std::to_string(radius) + ", depth " + std::to_string(depth);
+      expectNear(plan.tick.at(0).bytes, course.tick.bytes, what);
+      expectNear(plan.loaded, course.loaded, what);
+      expectNear(plan.watched, course.watched, what);
     }
 }
 

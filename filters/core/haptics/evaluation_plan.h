@@ -57,6 +57,10 @@ struct PlannedMemory {
 /// r^2 / (2 R_e) - d of the undeformed bodies is less than the solver's margin, and behind a tool
 /// that moves to twice that. A mesh is taken as flat, a hand as five fingertips. Depths below half
 /// an edge touch more vertices than this says: at least one.
+///
+/// What is asked of Green's functions, and the memory, are within a fifth of what tests count. The
+/// contact solver's own flops and bytes follow from the numbers of vertices, iterations and updates
+/// and are estimates: nothing counts them. Surfaces of tools are not among the memory.
 struct EvaluationPlan {
   double rate = 1000;              ///< ticks a second
   double loaded = 0, watched = 0;  ///< nodes of the first body under forces; looked after
