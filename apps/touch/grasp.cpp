@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <Eigen/Geometry>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -30,33 +32,62 @@ namespace {
 
 constexpr int kTicksPerFrame = 16;  ///< a servo loop of a thousand ticks a second, 60 frames
 constexpr int kDefaultFrames = 120;
-constexpr double kHandOverModel = 2.0;  ///< length of the hand, over the body's mean extent
+constexpr double kHandOverModel = 3.0;  ///< length of the hand, over the extent that it grasps
 
-/// A hand that comes to the free side of a body and closes around it.
-DeviceRecording handAround(const SceneBody& body, const Eigen::Vector3d& towards, double length,
-                           int moments) {
-  const Eigen::AlignedBox3d box(body.mesh->points().rowwise().minCoeff(),
-                                body.mesh->points().rowwise().maxCoeff());
-  // The palm (-y of the hand) looks from the free side onto the middle, the fingers (-z) across the
-  // narrowest extent that is left.
-  const Eigen::Vector3d back = towards.normalized();
-  int narrow;
-  (box.sizes().array() + 1e3 * box.sizes().maxCoeff() * back.array().abs().square())
-      .minCoeff(&narrow);
-  Eigen::Vector3d fingers = Eigen::Vector3d::Unit(narrow);
-  fingers = (fingers - fingers.dot(back) * back).normalized();
-  Eigen::Matrix3d frame;
-  frame << back.cross(-fingers), back, -fingers;
-  ToolPose pose;
-  pose.orientation = Eigen::Quaterniond(frame);
-  const double height = box.sizes().cwiseProduct(back.cwiseAbs()).sum() / 2;
-  DeviceRecording recording = closingHand(moments, pose);
-  for (std::size_t i = 0; i < recording.moments.size(); ++i) {
-    const double approach = std::max(0.0, 1 - 4.0 * i / moments);  // a quarter of the time
-    recording.moments[i].state.pose.position =
-        box.center() - 0.58 * length * fingers + (height + (0.06 + 0.4 * approach) * length) * back;
+/// Angles of a grip around something round, as it closes from flat (0) to held (1).
+void setGrip(double fraction, ToolPose& pose) {
+  const auto set = [&](int joint, double angle) {
+    pose.joints[static_cast<std::size_t>(joint)] = angle;
+  };
+  pose.jointCount = HandJointCount;
+  for (int finger : {IndexProximal, MiddleProximal, RingProximal, LittleProximal}) {
+    set(finger, 1.1 * fraction);
+    set(finger + 1, 0.75 * fraction);
+    set(finger + 2, 0.4 * fraction);
   }
-  return recording;
+  set(ThumbAbduction, 0.7);
+  set(ThumbRotation, 1.35 * fraction + 0.3);
+  set(ThumbProximal, 0.1 * fraction);
+  set(ThumbDistal, 0.3 * fraction);
+}
+
+/// The horizontal axis along which a body is the narrowest, seen from a direction.
+Eigen::Vector3d narrowAxis(const Eigen::Vector3d& extent, const Eigen::Vector3d& from) {
+  int narrow = 0;
+  double least = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double across = extent[axis] / std::max(1e-3, 1 - std::abs(from[axis]));
+    if (axis > 0 && across >= least) continue;
+    narrow = axis;
+    least = across;
+  }
+  return Eigen::Vector3d::Unit(narrow);
+}
+
+/// A hand that comes down on the free side of a body and closes around it.
+/// @param from  the way that the back of the hand looks, an axis.
+DeviceRecording handAround(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from,
+                           double length, int moments) {
+  const Eigen::Vector3d fingers = narrowAxis(box.sizes(), from);
+  Eigen::Matrix3d frame;  // the hand's: fingers along -z, its back along y
+  frame << from.cross(-fingers), from, -fingers;
+  const double height = box.sizes().dot(from.cwiseAbs()) / 2;
+  const double width = box.sizes().dot(fingers.cwiseAbs());
+  DeviceRecording trace;
+  trace.info.name = "grasping hand";
+  for (int i = 0; i < moments; ++i) {
+    const double time = static_cast<double>(i) / moments;
+    const double approach = std::max(0.0, 1 - 4 * time);  // a quarter of the time
+    const double closed = std::clamp((time - 0.2) / 0.6, 0.0, 1.0);
+    DeviceState state;
+    state.sequence = static_cast<std::uint64_t>(i) + 1;
+    state.pose.orientation = Eigen::Quaterniond(frame);
+    state.pose.position = box.center() + (width / 2 - 0.5 * length) * fingers +
+                          (height + (0.07 + 0.4 * approach) * length) * from;
+    setGrip(closed * closed * (3 - 2 * closed), state.pose);
+    trace.moments.push_back({true, state});
+  }
+  return trace;
 }
 
 /// What a finger feels: its bones' forces.
@@ -118,15 +149,19 @@ void runGrasp(const TouchOptions& options) {
   const auto surface = readModel(options.model);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
-  const Eigen::Vector3d towards(directionOntoFreeSurface(surface).data());
-  const double extent =
-      (body.mesh->points().rowwise().maxCoeff() - body.mesh->points().rowwise().minCoeff()).mean();
-  const double length = options.handLength > 0 ? options.handLength : kHandOverModel * extent;
+  const Eigen::Vector3d free(directionOntoFreeSurface(surface).data());
+  int axis;
+  free.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Vector3d from = std::copysign(1.0, free[axis]) * Eigen::Vector3d::Unit(axis);
+  const Eigen::AlignedBox3d box(body.mesh->points().rowwise().minCoeff(),
+                                body.mesh->points().rowwise().maxCoeff());
+  const double width = box.sizes().dot(narrowAxis(box.sizes(), from).cwiseAbs());
+  const double length = options.handLength > 0 ? options.handLength : kHandOverModel * width;
   const HandModel hand(length);
   const int frames = options.frames > 0 ? options.frames : kDefaultFrames;
   DeviceRecording trace;
   if (options.device == "mouse")
-    trace = handAround(body, towards, length, frames * kTicksPerFrame);
+    trace = handAround(box, from, length, frames * kTicksPerFrame);
   else if (options.device.rfind("scripted:", 0) == 0)
     trace = readDeviceRecording(options.device.substr(9));
   else
@@ -144,7 +179,7 @@ void runGrasp(const TouchOptions& options) {
   view.AddBody(body.mesh, {});
   view.AddTool(lookOf(hand));
   view.SetRenderer(window.renderer());
-  window.lookFrom(towards + Eigen::Vector3d(0.9, -0.9, 0.2) * towards.norm(), surface->GetBounds());
+  window.lookFrom(0.5 * from + Eigen::Vector3d(0.6, -0.9, 0), surface->GetBounds());
 
   ServoSnapshot snapshot;
   snapshot.contact = touch.makeSnapshot();

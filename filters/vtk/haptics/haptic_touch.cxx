@@ -65,7 +65,7 @@ vtkSmartPointer<vtkPolyData> readSurface(const std::string& path)
 SceneBody bodyOf(vtkPolyData* surface)
 {
   const convert::ServedModel served = convert::servedModelOf(surface);
-  return { served.greens, served.mesh };
+  return { served.greens, served.mesh, served.smoothPatches };
 }
 
 vtkSmartPointer<vtkPolyData> ball(double radius)

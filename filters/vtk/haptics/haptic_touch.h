@@ -66,6 +66,8 @@ public:
   /// The first model as it was given.
   vtkPolyData* Touched() const { return this->FirstModel; }
   const std::vector<SceneBody>& Bodies() const { return this->Loaded; }
+  /// Under gravity a body's surface has sagged. After Prepare.
+  std::shared_ptr<const SurfaceMesh> Mesh(int body) const { return this->Session->mesh(body); }
   const ToolLook& Look(int tool) const { return this->Looks[tool]; }
   const ServoSnapshot& Snapshot() const { return this->Latest; }
   const ToolContact& Contact(int tool) const;

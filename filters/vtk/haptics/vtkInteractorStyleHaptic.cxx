@@ -279,7 +279,7 @@ void vtkInteractorStyleHaptic::Prepare()
   for (std::size_t body = 0; body < touch.Session.Bodies().size(); ++body)
   {
     touch.View.AddBody(
-      touch.Session.Bodies()[body].mesh, touch.Session.Scene().models[body].pose);
+      touch.Session.Mesh(static_cast<int>(body)), touch.Session.Scene().models[body].pose);
   }
   for (std::size_t tool = 0; tool < touch.Session.Scene().tools.size(); ++tool)
   {
