@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What touching at points costs the servo loop in each tick: the distribution of the thread's CPU
+// What touching costs the servo loop in each tick: the distribution of the thread's CPU
 // time, in which other processes do not count.
 
 #include <benchmark/benchmark.h>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "haptics/point_touch.h"
+#include "haptics/tool_touch.h"
 #include "support/allocation_count.h"
 #include "support/cpu_clock.h"
 #include "support/spheres.h"
@@ -20,15 +21,17 @@
 namespace palpate::bench {
 namespace {
 
-constexpr int kTicks = 40000, kPasses = 5;
+constexpr int kTicks = 40000, kBallTicks = 4000, kPasses = 5;
 
 /// CPU times of ticks that are the same in each of several passes.
 class Distribution {
  public:
-  Distribution() : least_(kTicks, 1) { all_.reserve(kTicks * kPasses); }
+  explicit Distribution(int ticks = kTicks) : least_(ticks, 1) {
+    all_.reserve(std::size_t(ticks) * kPasses);
+  }
 
   void add(double seconds) {
-    double& least = least_[all_.size() % kTicks];
+    double& least = least_[all_.size() % least_.size()];
     least = std::min(least, seconds);
     all_.push_back(seconds);
   }
@@ -97,6 +100,50 @@ void tickOfPointTouchWithSnapshot(benchmark::State& state) {
   slide(state, true);
 }
 
+/// A ball that rubs under friction over all of a sphere at 0.1 m/s, taken as 10 cm in diameter, so
+/// deep that about s vertices bear a force: the whole unilateral problem, with vertices that come,
+/// go, stick and slip.
+void tickOfBall(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0)), s = static_cast<int>(state.range(1));
+  const auto mesh = std::make_shared<SurfaceMesh>(sphereModel(n).mesh());
+  const double radius = s > 50 ? 1 : 0.6, effective = radius / (radius + 1);
+  const double depth = s * 4.0 / (n * effective);  // pi a^2 = s vertex areas, a^2 = R_e depth
+  UnilateralContactSettings settings;
+  settings.capacity = std::min(n, 3 * s);
+  settings.margin = mesh->meanEdgeLength() / 4;
+  settings.solver.largestUpdates = 12;
+  ToolTouch touch(sphereGreens(n), mesh,
+                  {std::make_shared<RigidTouchTool>(std::make_shared<SphereShape>(radius))}, 0.3,
+                  settings);
+  ToolPose pose;
+  Wrench wrench;
+  Distribution distribution(kBallTicks);
+  double contacts = 0, cut = 0, worst = 0;
+  int tick = 0;
+  const long before = test::allocationCount();
+  for (auto _ : state) {
+    if (tick % kBallTicks == 0) touch.reset();
+    const int k = tick++ % kBallTicks;
+    const double along = 2e-3 * k, polar = 1.2 + 0.5 * std::cos(0.5 * along);
+    const double height = 1 + radius - depth * std::min(1.0, k / 200.0);
+    pose.position = height * Eigen::Vector3d(std::sin(polar) * std::cos(along),
+                                             std::sin(polar) * std::sin(along), std::cos(polar));
+    const double start = cpuSeconds();
+    const ContactCertificate certificate = touch.step(&pose, &wrench);
+    const double taken = cpuSeconds() - start;
+    state.SetIterationTime(taken);
+    distribution.add(taken);
+    contacts += certificate.contactCount;
+    cut += certificate.budgetCut;
+    worst = std::max(worst, certificate.residual);
+  }
+  state.counters["allocations"] = double(test::allocationCount() - before);
+  state.counters["contacts"] = contacts / double(state.iterations());
+  state.counters["cut"] = cut;
+  state.counters["residual"] = worst;
+  distribution.report(state);
+}
+
 /// What the clock itself adds to each of these.
 void emptyTick(benchmark::State& state) {
   Distribution distribution;
@@ -116,6 +163,14 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(tickOfPointTouch)->Apply(sizes);
 BENCHMARK(tickOfPointTouchWithSnapshot)->Apply(sizes);
+BENCHMARK(tickOfBall)
+    ->ArgNames({"n", "s"})
+    ->Args({162, 10})
+    ->Args({2562, 40})
+    ->Args({2562, 100})
+    ->Unit(benchmark::kMicrosecond)
+    ->UseManualTime()
+    ->Iterations(kBallTicks* kPasses);
 BENCHMARK(emptyTick)->Unit(benchmark::kMicrosecond)->UseManualTime()->Iterations(kTicks* kPasses);
 
 }  // namespace

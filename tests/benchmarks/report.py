@@ -154,6 +154,15 @@ def haptics_rows(folder):
                                      for p in ("p50", "p99", "p99_9", "max"))
                 yield words, goal, f"{figures} µs"
             yield ("the same, heap allocations", "0", f"{run.counter(case, 'allocations'):.0f}")
+    run = Results(folder / "haptics_large.json")
+    for s, goal in ((40, "≤ 200 µs"), (100, "≤ 1000 µs")):
+        case = next(c for c in run.cases if c.startswith(f"tickOfBall/n:2562/s:{s}/"))
+        for kind, words in (("", f"tick of a ball that rubs with friction, n = 2562, {run.counter(case, 'contacts'):.0f} "
+                                 "vertices under force on average, p50 / p99 / p99.9 / max of the CPU time"),
+                            ("own_", "the same, each tick in the quickest of five passes")):
+            figures = " / ".join(f"{run.counter(case, kind + p):.3g}"
+                                 for p in ("p50", "p99", "p99_9", "max"))
+            yield words, goal, f"{figures} µs"
 
 
 def print_table(header, rows):

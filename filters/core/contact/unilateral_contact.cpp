@@ -81,6 +81,8 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     moving.obstacle = std::move(obstacle);
     moving.lookAt.assign(mesh_->vertexCount(), 0);
     moving.isWatched.assign(mesh_->vertexCount(), false);
+    while (static_cast<int>(partOf_.size()) <= moving.obstacle.tool)
+      partOf_.emplace_back(mesh_->vertexCount(), -1);
     obstacles_.push_back(std::move(moving));
   }
   anchors_.resize(settings.capacity);
@@ -105,6 +107,7 @@ void UnilateralContact::reset() noexcept {
     moving.placed = false;
     std::fill(moving.isWatched.begin(), moving.isWatched.end(), false);
   }
+  for (std::vector<int>& parts : partOf_) std::fill(parts.begin(), parts.end(), -1);
   penetration_ = 0;
 }
 
@@ -154,9 +157,31 @@ void UnilateralContact::look(int obstacle, int vertex) noexcept {
     moving.lookAt[vertex] = moving.travelled + near.distance - margin_;
   } else if (near.normal.dot(mesh_->vertexNormals().col(vertex)) > kLargestCosine) {
     moving.lookAt[vertex] = moving.travelled + margin_ / 4;
-  } else {
+  } else if (isNearestPart(obstacle, vertex, near.distance)) {
     watch(obstacle, vertex, near);
   }
+}
+
+/// Whether a vertex is not watched with a nearer part of the same tool. One that is farther, by
+/// more than chatter, lets go of it.
+bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance) noexcept {
+  Moving& moving = obstacles_[obstacle];
+  if (moving.obstacle.tool < 0) return true;
+  const int held = partOf_[moving.obstacle.tool][vertex];
+  if (held < 0) return true;
+  const double other = proximity(held, mesh_->points().col(vertex)).distance;
+  const double chatter = margin_ / 8;
+  if (distance > other - chatter) {
+    moving.lookAt[vertex] = moving.travelled + std::max(chatter, (distance - other) / 2);
+    return false;
+  }
+  for (int contact = 0; contact < solver_.count(); ++contact)
+    if (anchors_[contact].obstacle == held && anchors_[contact].vertex == vertex) {
+      unwatch(contact);
+      break;
+    }
+  obstacles_[held].lookAt[vertex] = obstacles_[held].travelled + chatter;
+  return true;
 }
 
 ContactSite UnilateralContact::siteAt(int obstacle, int vertex,
@@ -178,12 +203,16 @@ void UnilateralContact::watch(int obstacle, int vertex, const Proximity& near) n
   const int contact = solver_.count() - 1;
   anchors_[contact] = {obstacle, vertex, Eigen::Vector3d::Constant(NAN), near.distance};
   obstacles_[obstacle].isWatched[vertex] = true;
+  const int tool = obstacles_[obstacle].obstacle.tool;
+  if (tool >= 0) partOf_[tool][vertex] = obstacle;
   ++transitions_;
 }
 
 void UnilateralContact::unwatch(int contact) noexcept {
   const int last = solver_.count() - 1;
-  obstacles_[anchors_[contact].obstacle].isWatched[anchors_[contact].vertex] = false;
+  Moving& moving = obstacles_[anchors_[contact].obstacle];
+  moving.isWatched[anchors_[contact].vertex] = false;
+  if (moving.obstacle.tool >= 0) partOf_[moving.obstacle.tool][anchors_[contact].vertex] = -1;
   solver_.remove(contact);
   anchors_[contact] = anchors_[last];
   ++transitions_;

@@ -22,6 +22,9 @@ struct Obstacle {
   /// proximity's triangles those of `mesh`: both null for a rigid tool.
   std::shared_ptr<const GreensFunctions> greens = nullptr;
   std::shared_ptr<const SurfaceMesh> mesh = nullptr;
+  /// Obstacles of the same number, >= 0, are parts of one tool and may overlap: a vertex meets the
+  /// nearest of them only. -1: by itself.
+  int tool = -1;
 };
 
 struct UnilateralContactSettings {
@@ -107,6 +110,7 @@ class UnilateralContact {
   void advance(int obstacle, const RigidPose& pose) noexcept;
   void turnBodies(const RigidPose* poses) noexcept;
   void look(int obstacle, int vertex) noexcept;
+  bool isNearestPart(int obstacle, int vertex, double distance) noexcept;
   void watch(int obstacle, int vertex, const Proximity& near) noexcept;
   void unwatch(int contact) noexcept;
   void dismiss() noexcept;
@@ -139,7 +143,8 @@ class UnilateralContact {
   std::vector<Moving> obstacles_;
   FrictionalContactSolver solver_;
   std::vector<Anchor> anchors_;
-  Eigen::Vector3d centre_;  ///< of a ball that holds the surface
+  std::vector<std::vector<int>> partOf_;  ///< a tool and vertex: the part that it is watched with
+  Eigen::Vector3d centre_;                ///< of a ball that holds the surface
   double radius_ = 0, margin_ = 0, stiffnessScale_ = 1, penetration_ = 0;
   long transitions_ = 0;
   bool overflowed_ = false;

@@ -13,10 +13,10 @@ namespace {
 std::vector<Obstacle> obstaclesOf(const std::vector<std::shared_ptr<const TouchTool>>& tools,
                                   double friction, const std::vector<ElasticPartner>& partners) {
   std::vector<Obstacle> obstacles;
-  for (const auto& tool : tools) {
-    if (!tool) throw std::invalid_argument("a device holds no tool");
-    for (int part = 0; part < tool->partCount(); ++part)
-      obstacles.push_back({tool->shape(part), friction});
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    if (!tools[t]) throw std::invalid_argument("a device holds no tool");
+    for (int part = 0; part < tools[t]->partCount(); ++part)
+      obstacles.push_back({tools[t]->shape(part), friction, nullptr, nullptr, static_cast<int>(t)});
   }
   for (const ElasticPartner& partner : partners) {
     if (!partner.mesh || !partner.greens)
