@@ -14,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "haptics/device_recording.h"
 #include "haptics/glove_device.h"
@@ -32,23 +33,26 @@ namespace {
 
 constexpr int kTicksPerFrame = 16;  ///< a servo loop of a thousand ticks a second, 60 frames
 constexpr int kDefaultFrames = 120;
-constexpr double kHandOverModel = 3.0;  ///< length of the hand, over the extent that it grasps
+constexpr double kHandOverModel = 2.9;  ///< length of the hand, over the extent that it grasps
 
 /// Angles of a grip around something round, as it closes from flat (0) to held (1).
 void setGrip(double fraction, ToolPose& pose) {
   const auto set = [&](int joint, double angle) {
     pose.joints[static_cast<std::size_t>(joint)] = angle;
   };
+  // Longer fingers bend more to reach as far.
+  constexpr std::pair<int, double> reach[] = {
+      {IndexProximal, 1.28}, {MiddleProximal, 1.17}, {RingProximal, 1.07}, {LittleProximal, 1.05}};
   pose.jointCount = HandJointCount;
-  for (int finger : {IndexProximal, MiddleProximal, RingProximal, LittleProximal}) {
-    set(finger, 1.1 * fraction);
-    set(finger + 1, 0.75 * fraction);
-    set(finger + 2, 0.4 * fraction);
+  for (const auto& [finger, more] : reach) {
+    set(finger, 1.3 * more * fraction);
+    set(finger + 1, 0.5 * more * fraction);
+    set(finger + 2, 0.3 * more * fraction);
   }
-  set(ThumbAbduction, 0.7);
-  set(ThumbRotation, 1.35 * fraction + 0.3);
+  set(ThumbAbduction, 1.3);
+  set(ThumbRotation, 0.3 + 1.3 * fraction);
   set(ThumbProximal, 0.1 * fraction);
-  set(ThumbDistal, 0.3 * fraction);
+  set(ThumbDistal, 0.2 * fraction);
 }
 
 /// The horizontal axis along which a body is the narrowest, seen from a direction.
@@ -82,8 +86,8 @@ DeviceRecording handAround(const Eigen::AlignedBox3d& box, const Eigen::Vector3d
     DeviceState state;
     state.sequence = static_cast<std::uint64_t>(i) + 1;
     state.pose.orientation = Eigen::Quaterniond(frame);
-    state.pose.position = box.center() + (width / 2 - 0.5 * length) * fingers +
-                          (height + (0.07 + 0.4 * approach) * length) * from;
+    state.pose.position = box.center() + (width / 2 - 0.44 * length) * fingers +
+                          (height + (0.05 + 0.4 * approach) * length) * from;
     setGrip(closed * closed * (3 - 2 * closed), state.pose);
     trace.moments.push_back({true, state});
   }
@@ -155,7 +159,8 @@ void runGrasp(const TouchOptions& options) {
   const Eigen::Vector3d from = std::copysign(1.0, free[axis]) * Eigen::Vector3d::Unit(axis);
   const Eigen::AlignedBox3d box(body.mesh->points().rowwise().minCoeff(),
                                 body.mesh->points().rowwise().maxCoeff());
-  const double width = box.sizes().dot(narrowAxis(box.sizes(), from).cwiseAbs());
+  const Eigen::Vector3d fingers = narrowAxis(box.sizes(), from);
+  const double width = box.sizes().dot(fingers.cwiseAbs());
   const double length = options.handLength > 0 ? options.handLength : kHandOverModel * width;
   const HandModel hand(length);
   const int frames = options.frames > 0 ? options.frames : kDefaultFrames;
@@ -169,6 +174,7 @@ void runGrasp(const TouchOptions& options) {
   GloveDevice glove(std::move(trace), hand);
   UnilateralContactSettings settings;
   settings.capacity = 400;
+  settings.solver.largestUpdates = 40;
   ToolTouch touch(body.greens, body.mesh, {std::make_shared<HandTool>(hand)},
                   options.friction >= 0 ? options.friction : 0.5, settings);
   SnapshotDeformation deformation(body.greens);
@@ -179,7 +185,10 @@ void runGrasp(const TouchOptions& options) {
   view.AddBody(body.mesh, {});
   view.AddTool(lookOf(hand));
   view.SetRenderer(window.renderer());
-  window.lookFrom(0.5 * from + Eigen::Vector3d(0.6, -0.9, 0), surface->GetBounds());
+  const Eigen::AlignedBox3d seen(box.min() - 0.2 * box.sizes(), box.max() + 0.2 * box.sizes());
+  const double bounds[6] = {seen.min().x(), seen.max().x(), seen.min().y(),
+                            seen.max().y(), seen.min().z(), seen.max().z()};
+  window.lookFrom(0.45 * from - 0.5 * fingers + 0.9 * from.cross(fingers), bounds);
 
   ServoSnapshot snapshot;
   snapshot.contact = touch.makeSnapshot();

@@ -69,8 +69,8 @@ vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length)
   vtkNew<vtkCapsuleSource> source;
   source->SetRadius(radius);
   source->SetCylinderLength(length);
-  source->SetThetaResolution(24);
-  source->SetPhiResolution(24);
+  source->SetThetaResolution(16);
+  source->SetPhiResolution(8);
   vtkNew<vtkTransform> place;
   place->Translate(0, 0, length / 2);
   place->RotateX(90);
@@ -184,7 +184,7 @@ void TouchView::AddTool(const ToolLook& look)
     mapper->SetInputData(surface);
     mapper->ScalarVisibilityOff();
     part->Actor->SetMapper(mapper);
-    part->Actor->GetProperty()->SetOpacity(0.6);
+    part->Actor->GetProperty()->SetOpacity(look.Parts.size() > 1 ? 1 : 0.6); // many layers cost frames
     tool->Parts.push_back(std::move(part));
   }
   tool->Place = look.Place;
