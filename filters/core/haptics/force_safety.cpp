@@ -156,7 +156,9 @@ Fault ForceSafety::judgeSolve(const Request& request) noexcept {
 }
 
 void ForceSafety::delivered(bool arrived) noexcept {
-  undelivered_ = arrived ? 0 : std::min(undelivered_ + 1, settings_.largestSilence);
+  // What is not there takes nothing: that is no fault of its own.
+  const bool lost = !arrived && poseFault_ != Fault::Unplugged;
+  undelivered_ = lost ? std::min(undelivered_ + 1, settings_.largestSilence) : 0;
 }
 
 /// 1 up to the tolerated silence, then linearly down to 0 at the largest one.
