@@ -212,6 +212,12 @@ void HapticTouch::SetDeformation(DeformationRows rows)
   this->Described.effects.deformation = rows;
 }
 
+void HapticTouch::SetRecordFile(const std::string& fileName)
+{
+  this->Change(); // a device that is open already is not recorded
+  this->RecordFile = fileName;
+}
+
 void HapticTouch::SetFriction(double mu)
 {
   if (!(mu >= 0) || !std::isfinite(mu))
@@ -401,6 +407,7 @@ void HapticTouch::Prepare()
     throw std::invalid_argument("there is no model to touch: set one or load a scene");
   }
   std::vector<std::shared_ptr<const SurfaceMesh>> meshes(this->Described.tools.size());
+  this->Change(); // what is left of an attempt that failed
   this->Looks.clear();
   std::vector<ServoTool> hands;
   for (std::size_t t = 0; t < this->Described.tools.size(); ++t)
@@ -588,5 +595,17 @@ MouseDevice& HapticTouch::Mouse()
     throw std::logic_error("no tool of this scene is moved by the mouse");
   }
   return *this->Pointer;
+}
+
+double HapticTouch::PointerReach() const
+{
+  for (const SceneTool& tool : this->Described.tools)
+  {
+    if (this->Described.devices[tool.device].type == DeviceType::Mouse)
+    {
+      return tool.radius;
+    }
+  }
+  return 0;
 }
 } // namespace palpate

@@ -39,7 +39,7 @@ public:
   void SetDevice(const SceneDevice& device);
   void SetRate(double rate);
   void SetDeformation(DeformationRows rows);
-  void SetRecordFile(const std::string& fileName) { this->RecordFile = fileName; }
+  void SetRecordFile(const std::string& fileName);
 
   ///@{ At once.
   void SetFriction(double mu);
@@ -90,6 +90,8 @@ public:
   /// @throws std::logic_error if no tool is the mouse's.
   MouseDevice& Mouse();
   const ToolPose& MousePose() const { return this->PointerPose; }
+  /// How far the mouse's tool reaches from its position on all sides: a ball's radius.
+  double PointerReach() const;
   void SetMousePose(const ToolPose& pose) { this->PointerPose = pose; }
 
 private:

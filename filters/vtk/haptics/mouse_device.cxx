@@ -13,11 +13,12 @@ MouseDevice::MouseDevice(double period, double speed)
 
 void MouseDevice::Put(const ToolPose& pose) noexcept
 {
-  this->Goals.put({ pose, this->Jumps });
+  this->Goals.put({ pose, this->Start, this->Jumps });
 }
 
 void MouseDevice::PutAtOnce(const ToolPose& pose) noexcept
 {
+  this->Start = pose.position;
   ++this->Jumps;
   this->Put(pose);
 }
@@ -29,7 +30,11 @@ bool MouseDevice::read(DeviceState& state) noexcept
   const Eigen::Vector3d from = this->Now.pose.position, way = goal.Pose.position - from;
   const double length = way.norm();
   this->Now.pose = goal.Pose;
-  if (goal.Jumps == this->JumpsSeen && length > this->Step)
+  if (goal.Jumps != this->JumpsSeen)
+  {
+    this->Now.pose.position = goal.Start;
+  }
+  else if (length > this->Step)
   {
     this->Now.pose.position = from + this->Step / length * way;
   }

@@ -21,7 +21,8 @@ public:
 
   /// The window's: where the pointer has taken the probe, in the scene's frame.
   void Put(const ToolPose& pose) noexcept;
-  /// The window's: the same, without a way there; before the first touch or after a jump.
+  /// The window's: the same, without a way there; before the first touch or after a jump. Read there once
+  /// even if the pointer has gone on since.
   void PutAtOnce(const ToolPose& pose) noexcept;
 
   const DeviceInfo& info() const override { return this->Info; }
@@ -32,11 +33,13 @@ private:
   struct Goal
   {
     ToolPose Pose;
+    Eigen::Vector3d Start = Eigen::Vector3d::Zero(); ///< where the last jump led
     unsigned long Jumps = 0;
   };
   DeviceInfo Info;
   double Step; ///< most in a read
   LatestValue<Goal> Goals{ Goal() };
+  Eigen::Vector3d Start = Eigen::Vector3d::Zero(); ///< the window's
   unsigned long Jumps = 0;     ///< the window's
   unsigned long JumpsSeen = 0; ///< the servo thread's
   DeviceState Now;             ///< the servo thread's

@@ -43,6 +43,7 @@ struct vtkInteractorStyleHaptic::Touch
   int Timer = -1;
   bool Dragging = false;
   Eigen::Vector3d Anchor; ///< on the surface, where the drag began
+  Eigen::Vector3d Offset; ///< of the tool's position, from its place that is nearest to the surface
   double Depth = 0;       ///< along the view
   std::vector<char> Touched;
   std::vector<std::string> Faults;
@@ -419,6 +420,10 @@ bool vtkInteractorStyleHaptic::MoveProbe(double x, double y, double z, bool adhe
   return this->Try(
     [&]
     {
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+      {
+        throw std::invalid_argument("the probe's place must be three finite numbers");
+      }
       this->Prepare();
       palpate::ToolPose pose;
       pose.position = { x, y, z };
@@ -442,10 +447,12 @@ void vtkInteractorStyleHaptic::OnLeftButtonDown()
     return;
   }
   touch.Anchor = Eigen::Vector3d(picker->GetPickPosition());
+  touch.Offset = touch.Session.PointerReach() * Eigen::Vector3d(picker->GetPickNormal());
   touch.Dragging = true;
   touch.Depth = -StartAbove * touch.View.Diagonal();
   this->Drag();
   touch.Session.Mouse().PutAtOnce(touch.Session.MousePose());
+  touch.Session.Reset(); // or the jump would be a way through the body
   touch.Depth = this->PressDepth * touch.View.Diagonal();
   this->Drag();
   this->GrabFocus(this->EventCallbackCommand);
@@ -462,7 +469,7 @@ void vtkInteractorStyleHaptic::Drag()
   Eigen::Vector3d away;
   this->CurrentRenderer->GetActiveCamera()->GetDirectionOfProjection(away.data());
   palpate::ToolPose pose;
-  pose.position = Eigen::Vector3d(world) + touch.Depth * away;
+  pose.position = Eigen::Vector3d(world) + touch.Offset + touch.Depth * away;
   pose.buttons = this->Interactor->GetControlKey() ? 1 : 0;
   touch.Session.Mouse().Put(pose);
   touch.Session.SetMousePose(pose);
@@ -572,7 +579,10 @@ void vtkInteractorStyleHaptic::OnChar()
     case 'r':
       touch.Session.Reset();
       this->FindPokedRenderer(0, 0);
-      this->CurrentRenderer->ResetCamera(touch.View.Surface(0)->GetBounds());
+      if (this->CurrentRenderer)
+      {
+        this->CurrentRenderer->ResetCamera(touch.View.Surface(0)->GetBounds());
+      }
       break;
     default:
       this->Superclass::OnChar();

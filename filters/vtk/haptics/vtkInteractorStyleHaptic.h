@@ -161,7 +161,7 @@ public:
   ///@{
   /**
    * A file that Stop writes the first device's motion to, whole or not at all; none by default. For
-   * SetDeviceToScript.
+   * SetDeviceToScript. Stops.
    */
   bool SetRecordFileName(const char* fileName);
   ///@}
