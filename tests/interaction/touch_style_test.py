@@ -1,0 +1,489 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The style that touches, from Python, without a window."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from support.surfaces import cube, points_of, sphere
+from support.touch import (MODES, PRESS, RATE, REST, SIZE, STROKE, TOP, Touch, block_model, path,
+                           write_recording)
+
+LOST = "the device is not there"
+INVALID = "a pose that is not finite, out of reach or no rotation"
+
+
+class Touching(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def scripted(self, positions, radius=0, **how):
+        """A fresh style whose tool follows positions."""
+        style = Touch(block_model())
+        self.recordings = getattr(self, "recordings", 0) + 1
+        file = write_recording(self.folder / f"motion{self.recordings}.txt", positions, **how)
+        self.assertTrue(style.SetDeviceToScript(str(file)))
+        self.assertTrue(style.SetToolToSphere(radius) if radius else style.SetToolToPoint())
+        return style
+
+    def run_well(self, style, seconds):
+        self.assertTrue(style.RunHeadless(seconds), style.GetFailureMessage())
+        self.assertEqual(style.errors, [])
+
+    def trace_of(self, positions, radius=0, friction=0.3):
+        style = self.scripted(positions, radius)
+        self.assertTrue(style.SetFriction(friction))
+        self.run_well(style, len(positions) / RATE)
+        return style.trace()
+
+    def refuse(self, style, sentence, method, *arguments):
+        """The call fails with one sentence and one error event."""
+        before = len(style.errors)
+        self.assertFalse(method(*arguments), (method, arguments))
+        self.assertIn(sentence, style.GetFailureMessage())
+        self.assertEqual(style.errors[before:], [style.GetFailureMessage()])
+        self.assertNotIn("\n", style.GetFailureMessage())
+
+
+class Models(Touching):
+    def test_without_greens_functions_are_refused_and_the_last_one_stays(self):
+        style = Touch(block_model())
+        self.refuse(style, "carries no Green's functions: compute them with", style.SetModel, sphere(1))
+        self.refuse(style, "there is no model to touch", style.SetModel, None)
+        self.assertIs(style.GetTouchedModel(), block_model())
+        self.assertTrue(style.RunHeadless(0.01), style.GetFailureMessage())
+
+    def test_are_needed_to_run_move_or_plan(self):
+        style = Touch()
+        for method, arguments in ((style.Start, ()), (style.RunHeadless, (1,)),
+                                  (style.MoveProbe, (0, 0, 0))):
+            self.refuse(style, "there is no model to touch: set one or load a scene", method, *arguments)
+        self.refuse(style, "there is no model to plan for", style.GetEvaluationPlan)
+
+    def test_are_not_changed_by_touch(self):
+        before = points_of(block_model()).copy()
+        style = self.scripted(path(*PRESS))
+        self.run_well(style, REST + 0.4)
+        self.assertTrue(style.IsTouching())
+        self.assertTrue((points_of(block_model()) == before).all())
+
+
+class Forces(Touching):
+    def test_of_a_script_are_the_same_twice_bit_for_bit(self):
+        for radius in (0, 0.03):
+            positions = path(*STROKE) + (0, 0, radius)
+            first, second = self.trace_of(positions, radius), self.trace_of(positions, radius)
+            self.assertEqual(first.shape, (len(positions), 6))
+            self.assertGreater(np.abs(first).max(), 0.1)
+            self.assertEqual(first.tobytes(), second.tobytes())
+
+    def test_do_not_depend_on_how_often_they_are_looked_at(self):
+        positions = path(*STROKE)
+        style = self.scripted(positions)
+        for _ in range(len(positions) // 100):
+            self.run_well(style, 0.1)
+        self.assertEqual(style.trace().tobytes(), self.trace_of(positions).tobytes())
+
+    def test_push_out_while_pressed_and_are_zero_before_and_after(self):
+        for radius in (0, 0.03):
+            positions = path(*PRESS)
+            trace = self.trace_of(positions + (0, 0, radius), radius)
+            inside = positions[:, 2] < TOP[2]
+            self.assertTrue((trace[~inside] == 0).all())
+            self.assertTrue((trace[inside, 2] > 0).all())
+            # By symmetry, up to rounding in forces of a newton.
+            self.assertLess(np.abs(trace[:, :2]).max(), 1e-9)
+            deepest = positions[:, 2] == positions[:, 2].min()
+            self.assertLess(np.ptp(trace[deepest, 2]), 1e-9)
+
+    def test_of_a_point_that_sticks_grow_in_proportion_to_depth(self):
+        positions = path(*PRESS)
+        trace = self.trace_of(positions)
+        inside = positions[:, 2] < TOP[2] - 1e-4
+        stiffness = trace[inside, 2] / (TOP[2] - positions[inside, 2])
+        self.assertLess(np.ptp(stiffness) / stiffness.mean(), 1e-9)  # rounding
+
+    def test_stay_within_the_friction_cone_of_a_flat_place(self):
+        for friction in (0, 0.1, 0.5):
+            trace = self.trace_of(path(*STROKE), friction=friction)
+            normal, tangential = trace[:, 2], np.hypot(trace[:, 0], trace[:, 1])
+            # The servo loop's slip is solved to a few millionths of the force.
+            self.assertTrue((tangential <= friction * normal + 1e-5 * normal.max()).all())
+            sliding = normal > 0.5 * normal.max()
+            if friction:
+                self.assertGreater((tangential[sliding] / normal[sliding]).max(), 0.999 * friction)
+                moved = path(*STROKE)[np.argmax(tangential)] - TOP
+                self.assertLess(trace[np.argmax(tangential), :2] @ moved[:2], 0)  # against the motion
+
+    def test_of_a_pushed_ball_turn_about_its_centre(self):
+        style = Touch(block_model())
+        style.SetToolToSphere(0.03)
+        for offset, seconds in ((0.035, 1), (0.028, 0.3)):
+            style.MoveProbe(*(TOP + (0, 0, offset)))
+            self.run_well(style, seconds)
+        self.assertLess(np.linalg.norm(style.torque()), 1e-9)
+        style.MoveProbe(*(TOP + (0.003, 0, 0.028)))
+        self.run_well(style, 0.3)
+        self.assertLess(style.force()[0], 0)
+        self.assertEqual(style.GetNumberOfContacts(), 1)
+        node = np.linalg.norm(points_of(block_model()) - TOP, axis=1).argmin()
+        torque = np.cross(style.surface()[node] - style.position(), style.force())
+        # Where the node is, the contact's linearisation knows to its second order.
+        self.assertLess(np.linalg.norm(style.torque() - torque), 0.01 * np.linalg.norm(torque))
+
+    def test_scale_with_the_stiffness_and_are_bounded_by_the_rigid_one(self):
+        style = Touch(block_model())
+        style.MoveProbe(*(TOP + (0, 0, 0.005)))
+        self.run_well(style, 1)
+        style.MoveProbe(*(TOP - (0, 0, 0.002)))
+        self.run_well(style, 0.3)
+        before, shape = style.force(), style.surface()
+        self.assertTrue(style.SetStiffnessScale(2))
+        self.run_well(style, 0.3)
+        self.assertLess(np.abs(style.force() / before - 2)[2], 1e-9)
+        self.assertLess(np.abs(style.surface() - shape).max(), 1e-9)  # the probe is where it was
+        self.assertTrue(style.SetRigidStiffness(1))
+        self.run_well(style, 0.5)
+        # 2 mm at 1 N/m, which bounds the mean square over directions: each one by root 3.
+        self.assertLess(style.force()[2], 3**0.5 * 2e-3)
+        self.assertGreater(style.force()[2], 0)
+
+
+class Probe(Touching):
+    def place(self, style, offset, adheres=False):
+        self.assertTrue(style.MoveProbe(*(TOP + offset), adheres), style.GetFailureMessage())
+        self.run_well(style, 1)
+
+    def test_goes_where_it_is_put_and_no_faster_than_a_hand(self):
+        style = Touch(block_model())
+        self.place(style, (0, 0, 0.005))
+        self.assertTrue((style.position() == TOP + (0, 0, 0.005)).all())
+        style.MoveProbe(*(TOP + (0, 0, 0.1)))
+        self.run_well(style, 0.01)
+        self.assertLess(np.linalg.norm(style.position() - TOP), 0.05)
+
+    def test_touches_slides_and_lets_go(self):
+        style = Touch(block_model())
+        self.place(style, (0, 0, 0.005))
+        self.assertFalse(style.IsTouching())
+        self.place(style, (0, 0, -0.002))
+        self.assertTrue(style.IsTouching())
+        self.assertFalse(style.IsSliding())
+        self.assertLess(np.abs(style.contact_point() - TOP).max(), 1e-9)
+        self.assertEqual(style.GetNumberOfContacts(), 1)
+        style.MoveProbe(*(TOP + (0.01, 0, -0.002)))
+        self.run_well(style, 0.012)  # still under way
+        self.assertTrue(style.IsSliding())
+        self.place(style, (0.01, 0, 0.005))
+        self.assertFalse(style.IsTouching())
+        self.assertTrue((style.force() == 0).all())
+        self.assertEqual(style.events, ["ContactBeginEvent", "ContactEndEvent"])
+
+    def test_that_adheres_pulls(self):
+        style = Touch(block_model())
+        self.place(style, (0, 0, 0.005))
+        self.place(style, (0, 0, -0.001), adheres=True)
+        self.place(style, (0, 0, 0.002), adheres=True)
+        self.assertLess(style.force()[2], -0.1)
+        self.assertGreater(style.surface()[:, 2].max(), SIZE + 0.0015)
+        self.place(style, (0, 0, 0.002), adheres=False)
+        self.assertFalse(style.IsTouching())
+        self.assertTrue((style.surface() == points_of(block_model())).all())
+
+    def test_is_refused_where_there_is_no_place_or_no_mouse(self):
+        style = Touch(block_model())
+        for place in ((np.nan, 0, 0), (0, np.inf, 0), (0, 0, -np.inf)):
+            self.refuse(style, "three finite numbers", style.MoveProbe, *place)
+        style.SetDeviceToSimulated()
+        self.refuse(style, "no tool of this scene is moved by the mouse", style.MoveProbe, 0, 0, 0)
+
+
+class Faults(Touching):
+    def test_end_the_force_at_once_and_let_it_return_over_a_ramp(self):
+        again = path(*PRESS, *PRESS[1:])
+        at = round((REST + 0.4) * RATE)  # in the first press
+        second = len(path(*PRESS)) + round((REST + 0.3) * RATE)  # the second one is at its depth
+        broken = again.copy()
+        broken[at] = np.nan
+        for fault, style in ((LOST, self.scripted(again, away=range(at, at + 5))),
+                             (INVALID, self.scripted(broken))):
+            self.run_well(style, at / RATE)
+            self.assertEqual((style.events, style.GetFault()), (["ContactBeginEvent"], ""))
+            self.run_well(style, 1 / RATE)
+            self.assertEqual(style.GetFault(), fault)
+            self.assertEqual(style.events.count("FaultEvent"), 1)
+            self.assertTrue((style.rendered() == 0).all())
+            self.assertIn(fault, style.GetStatus())
+            lifted = len(path(*PRESS))
+            self.run_well(style, (lifted - at) / RATE)
+            self.assertEqual(style.events, ["ContactBeginEvent", "FaultEvent", "ContactEndEvent"])
+            self.run_well(style, (second - lifted) / RATE)
+            trace = style.trace()
+            self.assertGreater(trace[at - 1, 2], 0.1)
+            self.assertTrue((trace[at:at + 100] == 0).all())
+            self.assertTrue(style.IsTouching())
+            self.assertEqual(style.GetFault(), "")
+            self.assertAlmostEqual(trace[second, 2] / trace[at - 1, 2], 1, delta=1e-9)
+            self.assertEqual(style.events[3:], ["ContactBeginEvent"])
+
+    def test_ramp_the_force_of_one_who_is_pressing_already(self):
+        # A device that appears 0.1 s before it touches gets the force little by little.
+        trace = self.trace_of(path((0, (0, 0, 1)), (0.1, (0, 0, 1)), (0.1, (0, 0, -2)),
+                                   (0.6, (0, 0, -2))))
+        force = trace[220:, 2]
+        self.assertTrue((np.diff(force) >= -1e-12).all())
+        self.assertLess(force[0], 0.5 * force[-1])
+
+    def test_are_the_end_of_a_recording_too(self):
+        style = self.scripted(path(*PRESS))
+        self.run_well(style, 2)
+        self.assertEqual(style.GetFault(), "no report from the device")
+        self.assertEqual(len(style.trace()), len(path(*PRESS)))
+
+    def test_come_with_the_number_of_the_tool(self):
+        palpate.write(block_model(), self.folder / "block.vtp")
+        positions = path(*PRESS)
+        write_recording(self.folder / "a.txt", positions + (0.02, 0, 0))
+        write_recording(self.folder / "b.txt", positions - (0.02, 0, 0), away=[1200])
+        (self.folder / "scene.json").write_text(json.dumps({
+            "models": [{"file": "block.vtp"}],
+            "tools": [{"shape": "point", "device": name} for name in "ab"],
+            "devices": [{"name": name, "type": "scripted", "file": name + ".txt"} for name in "ab"]}))
+        style = Touch()
+        self.assertTrue(style.LoadScene(str(self.folder / "scene.json")), style.GetFailureMessage())
+        self.run_well(style, 1.201)
+        self.assertEqual(style.GetNumberOfTools(), 2)
+        self.assertEqual((style.GetFault(0), style.GetFault(1)), ("", LOST))
+        self.assertEqual((style.GetFault(2), style.GetFault(-1)), ("", ""))
+
+
+class Deformation(Touching):
+    def displacement(self, mode, radius=0):
+        style = self.scripted(path(*PRESS) + (0, 0, radius), radius)
+        style.SetDeformation(MODES[mode])
+        self.assertEqual(style.GetDeformation(), MODES[mode])
+        self.run_well(style, REST + 0.4)
+        self.assertTrue(style.IsTouching())
+        return style.surface() - points_of(block_model()), style.force()
+
+    def test_of_all_moves_every_free_point_and_no_fixed_one(self):
+        for radius in (0, 0.03):
+            moved, _ = self.displacement("all", radius)
+            fixed = points_of(block_model())[:, 2] == 0
+            self.assertTrue((moved[fixed] == 0).all())
+            self.assertTrue((np.abs(moved[~fixed]).max(axis=1) > 0).all())
+            # The mesh's middle node is where the tool is, as deep as it is.
+            self.assertAlmostEqual(moved[:, 2].min(), -0.002, delta=1e-7)
+
+    def test_of_contact_moves_loaded_points_only_and_as_much(self):
+        for radius in (0, 0.03):
+            everything, force = self.displacement("all", radius)
+            some, same = self.displacement("contact", radius)
+            touched = np.abs(some).max(axis=1) > 0
+            self.assertTrue(0 < touched.sum() < len(some) // 2)
+            # Summed in another order: rounding of millimetres.
+            self.assertLess(np.abs(some - everything)[touched].max(), 1e-14)
+            near = np.linalg.norm(points_of(block_model()) - TOP, axis=1)
+            self.assertLess(near[touched].max(), 0.062)  # the mask's radius and a diagonal of the grid
+            self.assertTrue((force == same).all())
+
+    def test_of_none_moves_nothing_and_changes_no_force(self):
+        moved, force = self.displacement("none")
+        self.assertTrue((moved == 0).all())
+        self.assertTrue((force == self.displacement("all")[1]).all())
+
+    def test_modes_are_clamped_to_those_there_are(self):
+        style = Touch(block_model())
+        for given, taken in ((-3, 0), (9, 3), (2, 2)):
+            style.SetDeformation(given)
+            self.assertEqual(style.GetDeformation(), taken)
+
+
+class Recordings(Touching):
+    def test_replay_what_the_mouse_did_bit_for_bit(self):
+        file = self.folder / "recorded.txt"
+        style = Touch(block_model())
+        self.assertTrue(style.SetRecordFileName(str(file)))
+        forces = []
+        for offset in ((0, 0, 0.005), (0, 0, -0.002), (0.004, 0, -0.002), (0, 0, 0.01)):
+            style.MoveProbe(*(TOP + offset))
+            self.run_well(style, 0.7)
+            forces.append(style.force())
+        self.assertFalse(file.exists())
+        self.assertTrue(style.Stop(), style.GetFailureMessage())
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["recorded.txt"])
+        again = Touch(block_model())
+        self.assertTrue(again.SetDeviceToScript(str(file)))
+        for force in forces:
+            self.run_well(again, 0.7)
+            self.assertTrue((again.force() == force).all())
+        self.assertGreater(np.abs(forces[1]).max(), 0.1)
+
+    def test_of_a_recording_are_the_recording(self):
+        file = write_recording(self.folder / "motion.txt", path(*PRESS), away=range(3))
+        style = Touch(block_model())
+        style.SetDeviceToScript(str(file))
+        style.SetRecordFileName(str(self.folder / "copy.txt"))
+        self.run_well(style, len(path(*PRESS)) / RATE)
+        self.assertTrue(style.Stop())
+        self.assertEqual((self.folder / "copy.txt").read_text().splitlines()[3:],
+                         [" ".join(repr(float(n)).removesuffix(".0") for n in line.split())
+                          if line[0].isdigit() else line for line in file.read_text().splitlines()[3:]])
+
+    def test_are_kept_when_asked_for_after_the_probe_was_put(self):
+        style = Touch(block_model())
+        style.MoveProbe(*TOP)
+        self.assertTrue(style.SetRecordFileName(str(self.folder / "late.txt")))
+        self.run_well(style, 0.1)
+        self.assertTrue(style.Stop())
+        self.assertTrue((self.folder / "late.txt").is_file())
+
+    def test_that_cannot_be_written_are_a_failure_that_leaves_nothing(self):
+        style = Touch(block_model())
+        style.SetRecordFileName(str(self.folder / "no" / "file.txt"))
+        self.run_well(style, 0.1)
+        self.refuse(style, "the recording cannot be written to", style.Stop)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_that_are_missing_or_wrong_are_a_failure_of_the_start(self):
+        style = Touch(block_model())
+        missing = str(self.folder / "none.txt")
+        style.SetDeviceToScript(missing)
+        for method, arguments in ((style.Start, ()), (style.RunHeadless, (1,))):
+            self.refuse(style, f"the recording '{missing}' cannot be opened", method, *arguments)
+        wrong = write_recording(self.folder / "wrong.txt", path(*PRESS))
+        wrong.write_text(wrong.read_text().replace("1 0 0 0 0 0", "1 0 zero 0 0 0", 1))
+        style.SetDeviceToScript(str(wrong))
+        self.refuse(style, "line 5", style.RunHeadless, 1)
+
+
+class Settings(Touching):
+    def test_that_are_out_of_range_are_refused_and_the_last_ones_stay(self):
+        style = Touch(block_model())
+        before = [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
+                  style.GetRigidStiffness(), style.GetServoRate()]
+        nan = float("nan")
+        for method, sentence, values in (
+                (style.SetFriction, "friction must not be negative", (-1, nan, np.inf)),
+                (style.SetMaskRadius, "radius of a mask must not be negative", (-1, nan)),
+                (style.SetStiffnessScale, "stiffness scale must be positive", (0, -1, nan)),
+                (style.SetRigidStiffness, "rigid stiffness must not be negative", (-1, nan)),
+                (style.SetServoRate, "between 250 and 10000 Hz", (0, 249, 10001, nan)),
+                (style.SetToolToSphere, "radius of a ball must be positive", (0, -1, nan)),
+                (style.RunHeadless, "time to run must not be negative", (-1, nan, np.inf))):
+            for value in values:
+                self.refuse(style, sentence, method, value)
+        self.assertEqual(before, [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
+                                  style.GetRigidStiffness(), style.GetServoRate()])
+        self.assertTrue(style.RunHeadless(0.01))
+        self.assertEqual(style.GetFailureMessage(), "")
+
+    def test_have_the_values_of_the_header(self):
+        style = Touch(block_model())
+        self.assertEqual((style.GetFriction(), style.GetStiffnessScale(), style.GetRigidStiffness(),
+                          style.GetServoRate(), style.GetPressDepth(), style.GetFrameRate(),
+                          style.GetDeformation(), style.GetNumberOfTools()),
+                         (0.3, 1, 0, 1000, 0.02, 60, MODES["all"], 1))
+        corners = points_of(block_model())[np.array(
+            [[block_model().GetCell(c).GetPointId(k) for k in range(3)]
+             for c in range(block_model().GetNumberOfCells())])]
+        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)  # each of them twice
+        self.assertAlmostEqual(style.GetMaskRadius() / (2 * edges.mean()), 1, delta=1e-12)
+
+    def test_of_the_rate_count_ticks(self):
+        for rate in (250, 1000, 2000):
+            style = Touch(block_model())
+            self.assertTrue(style.SetServoRate(rate))
+            self.run_well(style, 0.5)
+            self.assertEqual(style.GetNumberOfTicks(), rate / 2)
+            self.assertEqual(style.GetNumberOfMissedTicks(), 0)
+            self.assertIn(f"{rate} Hz", style.GetStatus())
+            self.assertGreater(style.GetTickTime(0.99), 0)
+            self.assertIn("compute", style.GetTimingTable())
+
+    def test_of_a_device_that_is_not_there_fail_at_the_start(self):
+        style = Touch(block_model())
+        style.SetDeviceToHid(0x0001, 0x0002)
+        self.refuse(style, "the HID device is not there: `palpate devices` lists", style.Start)
+        self.assertFalse(style.IsRunning())
+        style.SetDeviceToMouse()
+        self.assertTrue(style.RunHeadless(0.01))
+
+
+class Scenes(Touching):
+    def scene(self, **changed):
+        palpate.write(block_model(), self.folder / "block.vtp")
+        file = self.folder / "scene.json"
+        file.write_text(json.dumps({
+            "models": [{"file": "block.vtp"}], "tools": [{"shape": "sphere", "radius": 0.03,
+                                                          "device": "mouse"}],
+            "devices": [{"name": "mouse", "type": "mouse"}],
+            "effects": {"friction": {"mu": 0.4}}, **changed}))
+        return str(file)
+
+    def test_are_taken_over(self):
+        style = Touch()
+        self.assertTrue(style.LoadScene(self.scene()), style.GetFailureMessage())
+        self.assertEqual(style.GetFriction(), 0.4)
+        style.MoveProbe(*(TOP + (0, 0, 0.05)))
+        self.run_well(style, 1)
+        style.MoveProbe(*(TOP + (0, 0, 0.028)))
+        self.run_well(style, 1)
+        self.assertGreater(style.force()[2], 0.1)
+        self.assertTrue((style.torque() == 0).all())  # not asked for
+
+    def test_that_are_wrong_name_the_key_and_leave_the_last_one(self):
+        style = Touch(block_model())
+        for sentence, changed in (
+                ('"tools[0].shape" must be one of', {"tools": [{"shape": "cone", "device": "mouse"}]}),
+                ('"servo.rate"', {"servo": {"rate": 3}}),
+                ('"effects.friction.mu"', {"effects": {"friction": {"mu": -1}}}),
+                ("none.vtp: there is no such file", {"models": [{"file": "none.vtp"}]})):
+            self.refuse(style, sentence, style.LoadScene, self.scene(**changed))
+            self.assertIs(style.GetTouchedModel(), block_model())
+        self.refuse(style, "cannot be opened", style.LoadScene, str(self.folder / "none.json"))
+
+    def test_that_lack_a_file_say_so_each_time(self):
+        style = Touch()
+        point = {"shape": "point"}
+        self.assertTrue(style.LoadScene(self.scene(
+            effects={}, tools=[{**point, "device": "mouse"}, {**point, "device": "script"}],
+            devices=[{"name": "mouse", "type": "mouse"},
+                     {"name": "script", "type": "scripted", "file": "script.txt"}])))
+        for _ in range(2):
+            self.refuse(style, "script.txt' cannot be opened", style.RunHeadless, 1)
+        write_recording(self.folder / "script.txt", path(*PRESS))
+        self.assertTrue(style.RunHeadless(REST + 0.4), style.GetFailureMessage())
+        self.assertGreater(style.force(1)[2], 0.1)
+
+    def test_have_a_plan_of_what_is_computed(self):
+        style = Touch(block_model())
+        plan = style.GetEvaluationPlan()
+        for line in ("nodes under forces", "a tick, 1 k a second", "a frame", "memory", "deformation"):
+            self.assertIn(line, plan)
+        style.SetDeformation(MODES["none"])
+        self.assertNotIn("displacements", style.GetEvaluationPlan())
+        self.assertTrue(style.LoadScene(self.scene(servo={"rate": 500})))
+        self.assertIn("a tick, 500 a second", style.GetEvaluationPlan())
+        self.assertIn("watched", style.GetEvaluationPlan())
+
+    def test_give_way_to_a_finer_model(self):
+        style = Touch()
+        self.assertTrue(style.LoadScene(self.scene()))
+        self.run_well(style, 0.01)
+        fine = cube(4, SIZE)
+        model = palpate.precompute(fine, 1e4, 0.3, fixed=points_of(fine)[:, 2] == 0)
+        self.assertTrue(style.SetModel(model), style.GetFailureMessage())
+        self.run_well(style, 0.01)
+        self.assertEqual(len(style.surface()), model.GetNumberOfPoints())
+
+
+if __name__ == "__main__":
+    unittest.main()
