@@ -76,8 +76,11 @@ TEST(LatencyHistogram, ItIsReadWhileAnotherThreadRecords) {
   std::thread recorder([&] {
     for (int i = 0; i < 100000; ++i) histogram.record(1000);
   });
-  while (histogram.count() < 100000)
-    if (histogram.count() > 0) EXPECT_NEAR(histogram.quantile(0.5), 1e-6, 1e-6 / 64);
+  while (histogram.count() < 100000) {
+    if (histogram.count() > 0) {
+      EXPECT_NEAR(histogram.quantile(0.5), 1e-6, 1e-6 / 64);
+    }
+  }
   recorder.join();
 }
 
