@@ -123,23 +123,34 @@ Eigen::Vector3d UnilateralContact::placeOf(int contact) const noexcept {
   return mesh_->points().col(anchors_[contact].vertex) + solver_.displacement(contact);
 }
 
-/// The pose, and which vertices it may have brought near.
-void UnilateralContact::advance(int obstacle, const RigidPose& pose) noexcept {
-  Moving& moving = obstacles_[obstacle];
-  if (!moving.placed) {
-    moving.travelled = 0;
-    std::fill(moving.lookAt.begin(), moving.lookAt.end(), 0);
-  } else {
-    const double lever =
-        std::min(moving.obstacle.shape->reach(), (moving.pose.position - centre_).norm() + radius_);
-    moving.travelled += (pose.position - moving.pose.position).norm() +
-                        lever * moving.pose.orientation.angularDistance(pose.orientation);
+/// How far any point of an obstacle near the surface has moved to a pose, at most.
+double UnilateralContact::wayOf(int obstacle, const RigidPose& pose) const noexcept {
+  const Moving& moving = obstacles_[obstacle];
+  if (!moving.placed) return 0;
+  const double lever =
+      std::min(moving.obstacle.shape->reach(), (moving.pose.position - centre_).norm() + radius_);
+  return (pose.position - moving.pose.position).norm() +
+         lever * moving.pose.orientation.angularDistance(pose.orientation);
+}
+
+/// The poses, and which vertices they may have brought near. One obstacle's way counts for all: it
+/// may press the surface into another.
+void UnilateralContact::advance(const RigidPose* poses) noexcept {
+  double way = 0;
+  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle)
+    way = std::max(way, wayOf(obstacle, poses[obstacle]));
+  travelled_ += way;
+  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle) {
+    Moving& moving = obstacles_[obstacle];
+    if (!moving.placed) std::fill(moving.lookAt.begin(), moving.lookAt.end(), 0);
+    moving.pose = poses[obstacle];
+    moving.placed = true;
   }
-  moving.pose = pose;
-  moving.placed = true;
-  for (int vertex = 0; vertex < mesh_->vertexCount(); ++vertex)
-    if (moving.lookAt[vertex] <= moving.travelled && !moving.isWatched[vertex])
-      look(obstacle, vertex);
+  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle)
+    for (int vertex = 0; vertex < mesh_->vertexCount(); ++vertex)
+      if (obstacles_[obstacle].lookAt[vertex] <= travelled_ &&
+          !obstacles_[obstacle].isWatched[vertex])
+        look(obstacle, vertex);
 }
 
 /// Watches a vertex that is near, and tells when to look at it again if it is not.
@@ -149,17 +160,39 @@ void UnilateralContact::look(int obstacle, int vertex) noexcept {
   const double reach = moving.obstacle.shape->reach();
   const double atLeast = (place - moving.pose.position).norm() - reach;
   if (atLeast > margin_) {
-    moving.lookAt[vertex] = moving.travelled + atLeast - margin_;
+    moving.lookAt[vertex] = travelled_ + atLeast - margin_;
     return;
   }
   const Proximity near = proximity(obstacle, place);
   if (near.distance > margin_) {
-    moving.lookAt[vertex] = moving.travelled + near.distance - margin_;
-  } else if (near.normal.dot(mesh_->vertexNormals().col(vertex)) > kLargestCosine) {
-    moving.lookAt[vertex] = moving.travelled + margin_ / 4;
-  } else if (isNearestPart(obstacle, vertex, near.distance)) {
-    watch(obstacle, vertex, near);
+    moving.lookAt[vertex] = travelled_ + near.distance - margin_;
+    return;
   }
+  if (near.normal.dot(mesh_->vertexNormals().col(vertex)) > kLargestCosine) {
+    moving.lookAt[vertex] = travelled_ + margin_ / 4;
+    return;
+  }
+  const double gap = proximity(obstacle, place + displacementOf(vertex)).distance;
+  if (moving.body == 0 && gap > margin_)
+    moving.lookAt[vertex] = travelled_ + (gap - margin_) / 2 + margin_ / 16;
+  else if (isNearestPart(obstacle, vertex, near.distance))
+    watch(obstacle, vertex, near);
+}
+
+/// Displacement of a vertex under the forces of the last step.
+Eigen::Vector3d UnilateralContact::displacementOf(int vertex) const noexcept {
+  const GreensFunctions& greens = solver_.compliance().body(0);
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+  for (int contact = 0; contact < solver_.count(); ++contact) {
+    const int node = anchors_[contact].vertex;
+    const Eigen::Vector3d force = solver_.force(contact);
+    if (force.isZero(0) || greens.isFixed(node) || greens.isFixed(vertex)) continue;
+    Eigen::Matrix3d block;
+    greens.gather(Eigen::Map<const Eigen::VectorXi>(&vertex, 1),
+                  Eigen::Map<const Eigen::VectorXi>(&node, 1), block.data());
+    displacement += block * force / greens.vertexArea(node);
+  }
+  return displacement;
 }
 
 /// Whether a vertex is not watched with a nearer part of the same tool. One that is farther, by
@@ -172,7 +205,7 @@ bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance)
   const double other = proximity(held, mesh_->points().col(vertex)).distance;
   const double chatter = margin_ / 8;
   if (distance > other - chatter) {
-    moving.lookAt[vertex] = moving.travelled + std::max(chatter, (distance - other) / 2);
+    moving.lookAt[vertex] = travelled_ + std::max(chatter, (distance - other) / 2);
     return false;
   }
   for (int contact = 0; contact < solver_.count(); ++contact)
@@ -180,7 +213,7 @@ bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance)
       unwatch(contact);
       break;
     }
-  obstacles_[held].lookAt[vertex] = obstacles_[held].travelled + chatter;
+  obstacles_[held].lookAt[vertex] = travelled_ + chatter;
   return true;
 }
 
@@ -225,8 +258,13 @@ void UnilateralContact::dismiss() noexcept {
       continue;
     const auto [obstacle, vertex, place, gap] = anchors_[contact];
     const Proximity near = proximity(obstacle, mesh_->points().col(vertex));
-    if (near.distance < 2 * margin_) continue;
-    obstacles_[obstacle].lookAt[vertex] = obstacles_[obstacle].travelled + near.distance - margin_;
+    Moving& moving = obstacles_[obstacle];
+    if (near.distance >= 2 * margin_)
+      moving.lookAt[vertex] = travelled_ + near.distance - margin_;
+    else if (moving.body == 0)
+      moving.lookAt[vertex] = travelled_ + (gap - margin_) / 2;
+    else
+      continue;
     unwatch(contact);
   }
 }
@@ -288,7 +326,7 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
   overflowed_ = false;
   turnBodies(poses);
   dismiss();
-  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle) advance(obstacle, poses[obstacle]);
+  advance(poses);
   solver_.updateDisplacements();
   ContactCertificate certificate;
   for (int k = 0; k < settings_.linearisations; ++k) {

@@ -41,8 +41,10 @@ struct UnilateralContactSettings {
 /// an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all obstacles
 /// follow together, from the rows of watched vertices alone ([JP01] sections 4.3 and 5.3).
 ///
-/// A step finds the vertices near each obstacle (by conservative advancement: a vertex is looked at
-/// again only when its obstacle can have come near), linearises their gaps at the deformed place of
+/// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
+/// conservative advancement: a vertex is looked at again only when its obstacle can have come near
+/// and, of those that the obstacle has pressed away from itself, when it has come half as near,
+/// because they move too), linearises their gaps at the deformed place of
 /// the last step, and solves for the forces from the last ones on. Steps are quasi-static; sticking
 /// vertices keep the place on the obstacle where they stuck, and move with it.
 ///
@@ -99,6 +101,8 @@ class UnilateralContact {
   void setStiffnessScale(double scale);
   double stiffnessScale() const { return stiffnessScale_; }
 
+  /// The solver, for its counts.
+  const FrictionalContactSolver& solver() const { return solver_; }
   /// Largest penetration of a watched vertex after the last step, m.
   double penetration() const { return penetration_; }
   /// Vertices that have entered or left the watch so far.
@@ -107,9 +111,11 @@ class UnilateralContact {
   bool overflowed() const { return overflowed_; }
 
  private:
-  void advance(int obstacle, const RigidPose& pose) noexcept;
+  void advance(const RigidPose* poses) noexcept;
+  double wayOf(int obstacle, const RigidPose& pose) const noexcept;
   void turnBodies(const RigidPose* poses) noexcept;
   void look(int obstacle, int vertex) noexcept;
+  Eigen::Vector3d displacementOf(int vertex) const noexcept;
   bool isNearestPart(int obstacle, int vertex, double distance) noexcept;
   void watch(int obstacle, int vertex, const Proximity& near) noexcept;
   void unwatch(int contact) noexcept;
@@ -127,8 +133,7 @@ class UnilateralContact {
     int body = 0;  ///< number of an elastic obstacle among the bodies
     RigidPose pose;
     bool placed = false;
-    double travelled = 0;         ///< m, no point of it near the surface has moved farther
-    std::vector<double> lookAt;   ///< a vertex: distance travelled at which to look again
+    std::vector<double> lookAt;   ///< a vertex: travelled_ at which to look again
     std::vector<char> isWatched;  ///< a vertex
   };
   /// What is known of a watched vertex beyond the solver.
@@ -145,6 +150,7 @@ class UnilateralContact {
   std::vector<Anchor> anchors_;
   std::vector<std::vector<int>> partOf_;  ///< a tool and vertex: the part that it is watched with
   Eigen::Vector3d centre_;                ///< of a ball that holds the surface
+  double travelled_ = 0;  ///< m, no point of an obstacle near the surface has moved farther
   double radius_ = 0, margin_ = 0, stiffnessScale_ = 1, penetration_ = 0;
   long transitions_ = 0;
   bool overflowed_ = false;
