@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -20,13 +21,23 @@ void run(const TouchOptions& options) {
   if (!failure.empty()) throw std::runtime_error(failure);
 }
 
+/// Negative numbers stand for options that were not given. CLI11's own check lets NaN pass.
+void requireNotNegative(CLI::Option* option) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    const double value = std::strtod(text.c_str(), nullptr);
+    return value >= 0 ? "" : "must be a number that is not negative, not " + text;
+  };
+  option->check(CLI::Validator(complaint, ""));
+}
+
 void addLabOptions(CLI::App& command, TouchOptions& options) {
   command.add_flag("--lab", options.lab,
                    "Press a simulated device into the model instead, and find the stiffness it can "
                    "render against rate and damping");
   command.add_option("--at", options.at, "Where the lab presses: the nearest point of the surface")
       ->expected(3);
-  command.add_option("--depth", options.depth, "How deep, in the points' unit");
+  requireNotNegative(
+      command.add_option("--depth", options.depth, "How deep, in the points' unit"));
   command.add_option("--rates", options.rates, "Hz; by default 250 500 1000 2000 4000");
   command.add_option("--dampings", options.dampings, "N s/m; by default 0.1 0.5 2");
   command.add_option("--delays", options.delays, "Ticks from pose to force; by default 0 1");
@@ -54,11 +65,13 @@ void addTouch(CLI::App& program) {
       "mouse, scripted:FILE, simulated, hid, or hid:VVVV:PPPP as `palpate devices` lists it");
   command->add_option("--tool-radius", options->toolRadius,
                       "Touch with a ball of this radius instead of a point");
-  command->add_option("--friction", options->friction, "Coulomb's coefficient; 0.3 by default");
-  command->add_option("--radius", options->maskRadius,
-                      "Radius of a point's pressure mask; two mean edges by default");
-  command->add_option("--rigid-stiffness", options->stiffnessLimit,
-                      "Most stiffness that a point shows, N/m");
+  requireNotNegative(command->add_option("--friction", options->friction,
+                                         "Coulomb's coefficient; 0.3 by default"));
+  requireNotNegative(
+      command->add_option("--radius", options->maskRadius,
+                          "Radius of a point's pressure mask; two mean edges by default"));
+  requireNotNegative(command->add_option("--rigid-stiffness", options->stiffnessLimit,
+                                         "Most stiffness that a point shows, N/m"));
   command->add_option("--rate", options->rate, "Ticks of the servo loop a second; 1000 by default");
   command
       ->add_option("--deformation", options->deformation,
@@ -67,7 +80,8 @@ void addTouch(CLI::App& program) {
   command->add_option("--record", options->record, "Write the device's motion to this file");
   command->add_option("--forces", options->forces,
                       "Write the forces that a scripted device rendered to this file, CSV");
-  command->add_option("--seconds", options->seconds, "End after this time");
+  requireNotNegative(
+      command->add_option("--seconds", options->seconds, "End after this time"));
   command->add_flag("--headless", options->headless,
                     "Without a window, on virtual time: the same each time, bit for bit");
   command->add_flag("--plan", options->plan, "Print what a tick and a frame will compute, and end");
@@ -97,10 +111,12 @@ void addGrasp(CLI::App& program) {
   command->add_option("input", options->model, "A model from `palpate precompute`")->required();
   command->add_option("--device", options->device,
                       "scripted:FILE, a glove's recording; by default a hand that closes");
-  command->add_option("--hand-length", options->handLength,
-                      "Wrist to fingertip; by default to fit the model");
-  command->add_option("--friction", options->friction, "Coulomb's coefficient; 0.5 by default");
-  command->add_option("--frames", options->frames, "Frames to draw; 120 by default");
+  requireNotNegative(command->add_option("--hand-length", options->handLength,
+                                         "Wrist to fingertip; by default to fit the model"));
+  requireNotNegative(command->add_option("--friction", options->friction,
+                                         "Coulomb's coefficient; 0.5 by default"));
+  requireNotNegative(
+      command->add_option("--frames", options->frames, "Frames to draw; 120 by default"));
   requireWritable(command->add_option("--image", options->image, "Draw the last frame"), "pictures",
                   ".png");
   command->footer("  palpate grasp model.vtp --image grasp.png");

@@ -54,12 +54,14 @@ namespace {
 
 void setDevice(vtkInteractorStyleHaptic* style, const std::string& device) {
   unsigned vendor = 0, product = 0;
+  int read = 0;
   if (device == "mouse") return require(style->SetDeviceToMouse(), style);
   if (device == "simulated") return require(style->SetDeviceToSimulated(), style);
   if (device.rfind("scripted:", 0) == 0)
     return require(style->SetDeviceToScript(device.substr(9).c_str()), style);
   if (device == "hid") return require(style->SetDeviceToHid(0, 0), style);
-  if (std::sscanf(device.c_str(), "hid:%4x:%4x", &vendor, &product) == 2)
+  if (std::sscanf(device.c_str(), "hid:%4x:%4x%n", &vendor, &product, &read) == 2 &&
+      device.c_str()[read] == '\0')
     return require(style->SetDeviceToHid(static_cast<int>(vendor), static_cast<int>(product)),
                    style);
   throw std::invalid_argument("there is no device '" + device +

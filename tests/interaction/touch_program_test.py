@@ -1,0 +1,235 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`palpate touch`, `palpate grasp` and `palpate devices`: what they print and write, and how they fail."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from support.surfaces import PROGRAM
+from support.touch import PRESS, RATE, REST, STROKE, Touch, block_model, path, write_recording
+from support.window import read_picture
+
+WITHOUT_DISPLAY = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+
+
+class Program(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.model = Path(folder.name) / "block.vtp"
+        palpate.write(block_model(), cls.model)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def start(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                              **{"env": WITHOUT_DISPLAY, **options})
+
+    def run_well(self, *arguments, **options):
+        """What a command prints."""
+        ran = self.start(*arguments, **options)
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""), arguments)
+        return ran.stdout
+
+    def run_badly(self, sentence, *arguments, **options):
+        """The command fails with one line that holds a sentence, and writes nothing."""
+        before = sorted((p.name, p.stat().st_mtime_ns) for p in self.folder.iterdir())
+        ran = self.start(*arguments, **options)
+        self.assertGreater(ran.returncode, 0, arguments)
+        self.assertEqual(ran.stdout, "")
+        self.assertTrue(ran.stderr.startswith("palpate: ") and ran.stderr.count("\n") == 1, ran.stderr)
+        self.assertIn(sentence, ran.stderr)
+        after = sorted((p.name, p.stat().st_mtime_ns) for p in self.folder.iterdir())
+        self.assertEqual(before, after)
+        return ran.returncode
+
+    def scripted(self, stations, **how):
+        """Arguments that replay a motion on the model without a window."""
+        file = write_recording(self.folder / "motion.txt", path(*stations), **how)
+        return ("touch", self.model, "--device", f"scripted:{file}", "--headless")
+
+
+class Headless(Program):
+    def test_forces_are_the_same_twice_byte_for_byte_and_those_of_the_style(self):
+        files = [self.folder / name for name in ("a.csv", "b.csv")]
+        for file in files:
+            self.run_well(*self.scripted(STROKE), "--seconds", 2, "--forces", file)
+        self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
+        self.assertEqual(files[0].read_text().splitlines()[0],
+                         "force_x,force_y,force_z,torque_x,torque_y,torque_z")
+        forces = np.loadtxt(files[0], delimiter=",", skiprows=1)
+        style = Touch(block_model())
+        style.SetDeviceToScript(str(self.folder / "motion.txt"))
+        self.assertTrue(style.RunHeadless(2))
+        self.assertEqual(forces.tobytes(), style.trace().tobytes())
+        self.assertGreater(forces[:, 2].max(), 0.1)
+
+    def test_options_are_those_of_the_style(self):
+        printed = self.run_well(*self.scripted(PRESS), "--seconds", REST + 0.4, "--friction", 0.7,
+                                "--radius", 0.05, "--rate", 1000, "--rigid-stiffness", 100,
+                                "--deformation", "contact")
+        self.assertIn("mu 0.7", printed)
+        self.assertIn("mask 50 mm", printed)
+        self.assertIn("sticks", printed)
+        self.assertIn("at 0.05 0.05 0.1", printed)
+        self.assertIn(f"ticks    {round((REST + 0.4) * RATE)}, 0 left out", printed)
+
+    def test_records_the_motion_that_it_replays(self):
+        first, again = self.folder / "first.csv", self.folder / "again.csv"
+        copy = self.folder / "copy.txt"
+        self.run_well(*self.scripted(PRESS), "--seconds", 1.7, "--forces", first, "--record", copy)
+        self.run_well("touch", self.model, "--device", f"scripted:{copy}", "--headless", "--seconds",
+                      1.7, "--forces", again)
+        self.assertEqual(first.read_bytes(), again.read_bytes())
+
+    def test_pictures_need_no_display_and_show_the_press(self):
+        for name, seconds in (("before.png", 0.1), ("pressed.png", REST + 0.4)):
+            self.run_well(*self.scripted(PRESS), "--seconds", seconds, "--image", self.folder / name)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["before.png", "motion.txt", "pressed.png"])
+        before, pressed = (read_picture(self.folder / n) for n in ("before.png", "pressed.png"))
+        self.assertEqual(before.shape, (750, 1000, 3))
+        self.assertGreater(np.abs(before - pressed).mean(), 0.4)
+
+    def test_plan_is_printed_without_a_display_or_a_device(self):
+        plan = self.run_well("touch", self.model, "--plan")
+        for line in ("nodes under forces", "a tick, 1 k a second", "a frame", "memory"):
+            self.assertIn(line, plan)
+        self.assertIn("watched", self.run_well("touch", self.model, "--plan", "--tool-radius", 0.02))
+
+
+class Lab(Program):
+    def test_finds_the_colgate_bound_where_the_press_sticks(self):
+        plot = self.folder / "zwidth.png"
+        printed = self.run_well("touch", self.model, "--lab", "--at", 0.05, 0.05, 0.1, "--rates", 500,
+                                1000, "--dampings", 0.5, 2, "--delays", 0, 1, "--image", plot)
+        lines = printed.splitlines()
+        self.assertIn("pressed at 0.05 0.05 0.1", lines[0])
+        table = np.array([[float(x) for x in line.split()] for line in lines[2:]])
+        self.assertEqual(table.shape, (8, 5))
+        rate, damping, delay, stable, bound = table.T
+        # b > K T / 2 + K T d
+        self.assertLess(np.abs(bound * (0.5 + delay) / rate / damping - 1).max(), 1e-3)
+        self.assertLess(np.abs(stable / bound - 1).max(), 0.05)
+        picture = read_picture(plot)
+        self.assertGreater(picture.std(), 10)  # curves on paper
+
+    def test_refuses_what_it_cannot_press(self):
+        lab = ("touch", self.model, "--lab")
+        self.run_badly("rate is out of range", *lab, "--rates", 0)
+        self.run_badly("--depth: must be a number that is not negative", *lab, "--depth", -1)
+        self.run_badly("pictures are written as .png", *lab, "--image", self.folder / "a.jpg")
+        self.run_badly("the lab presses one model", "touch", "--scene", "none.json", "--lab")
+
+
+class Grasp(Program):
+    def test_tells_the_force_of_each_finger_and_draws_the_hand(self):
+        image = self.folder / "grasp.png"
+        printed = self.run_well("grasp", self.model, "--frames", 5, "--image", image)
+        for finger in ("thumb", "index", "middle", "ring", "little", "palm"):
+            self.assertRegex(printed, rf"(?m)^{finger} +force, N +[0-9.e-]+ ")
+        self.assertIn("frames                5, ", printed)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["grasp.png"])
+        self.assertGreater(read_picture(image).std(), 10)
+
+    def test_refuses_other_devices_and_numbers(self):
+        self.run_badly("needs a glove's recording", "grasp", self.model, "--device", "simulated")
+        self.run_badly("--frames: must be a number that is not negative", "grasp", self.model,
+                       "--frames", -3)
+        self.run_badly("there is no such file", "grasp", self.folder / "none.vtp")
+
+
+class Failures(Program):
+    def test_without_a_display_are_one_sentence(self):
+        status = self.run_badly("there is no display for a window: set DISPLAY, or run with --headless",
+                                "touch", self.model)
+        self.assertEqual(status, 1)
+
+    def test_of_devices_name_them(self):
+        touch = ("touch", self.model, "--headless", "--seconds", 1, "--device")
+        for name in ("banana", "mouses", "hid:", "hid:xyz:1", "hid:046d:c626z", "scripted"):
+            self.run_badly(f"there is no device '{name}': choose mouse, scripted:FILE", *touch, name)
+        self.run_badly("the HID device is not there: `palpate devices` lists", *touch, "hid:0001:0002")
+        self.run_badly("the recording 'none.txt' cannot be opened", *touch, "scripted:none.txt")
+
+    def test_of_arguments_say_how_to_mend_them(self):
+        self.run_badly("--headless needs --seconds, which is required", "touch", self.model, "--headless")
+        self.run_badly("a model or a --scene, one of the two, is required", "touch")
+        self.run_badly("a model or a --scene", "touch", self.model, "--scene", "a.json")
+        self.run_badly("--image needs --headless or --lab", "touch", self.model, "--image",
+                       self.folder / "a.png")
+        touch = ("touch", self.model, "--headless", "--seconds", 1)
+        self.run_badly("--deformation", *touch, "--deformation", "some")
+        self.run_badly("between 250 and 10000 Hz", *touch, "--rate", 100)
+        self.run_badly("radius of a ball must be positive", *touch, "--tool-radius", -1)
+        for option in ("--friction", "--radius", "--rigid-stiffness"):
+            for value in (-2, "nan"):
+                self.run_badly("must be a number that is not negative", *touch, option, value)
+        self.run_badly("must be a number that is not negative", *touch[:-1], "nan")
+
+    def test_of_files_leave_nothing_half_written(self):
+        self.run_badly("none.vtp: there is no such file", "touch", self.folder / "none.vtp", "--plan")
+        touch = ("touch", self.model, "--headless", "--seconds", 0.1)
+        self.run_badly("cannot be written", *touch, "--forces", self.folder / "no" / "a.csv")
+        self.run_badly("cannot be written", *touch, "--record", self.folder / "no" / "a.txt")
+        self.run_badly("there is no folder", *touch, "--image", self.folder / "no" / "a.png")
+        self.run_badly("pictures are written as .png", *touch, "--image", self.folder / "a.jpg")
+        bare = self.folder / "bare.vtp"
+        palpate.write(palpate.read(palpate.example("kidney")), bare)
+        self.run_badly("carries no Green's functions", "touch", bare, "--plan")
+
+    def test_of_scenes_name_the_key(self):
+        scene = {"models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
+                 "devices": [{"name": "m", "type": "mouse"}]}
+        file = self.folder / "scene.json"
+        for key, changed in (
+                ("tools[0].colour", {"tools": [{"shape": "point", "device": "m", "colour": 1}]}),
+                ("tools[0].device", {"tools": [{"shape": "point", "device": "n"}]}),
+                ("effects.friction.mu", {"effects": {"friction": {"mu": -1}}}),
+                ("servo.rate", {"servo": {"rate": 20000}}), ("gravity", {"gravity": 1})):
+            file.write_text(json.dumps({**scene, **changed}))
+            self.run_badly(key, "touch", "--scene", file, "--headless", "--seconds", 1)
+        file.write_text("{")
+        self.run_badly("scene.json", "touch", "--scene", file, "--headless", "--seconds", 1)
+        file.write_text(json.dumps(scene))
+        self.assertIn("0 N free", self.run_well("touch", "--scene", file, "--headless", "--seconds", 0.1))
+
+
+class Devices(Program):
+    def test_that_are_built_in_are_told(self):
+        printed = self.run_well("devices")
+        for name in ("mouse", "simulated", "recording", "glove"):
+            self.assertRegex(printed, rf"(?m)^{name} +built in: ")
+
+
+class Batch(Program):
+    def loaded(self, *arguments):
+        """The libraries that a command loads."""
+        ran = self.start(*arguments, env={**WITHOUT_DISPLAY, "LD_DEBUG": "files"})
+        return ran.stderr
+
+    def test_commands_load_nothing_that_touches_draws_or_looks_for_devices(self):
+        # VTK's readers need vtkRenderingCore, which draws nothing by itself.
+        drawing = ("libpalpate_touch", "libPalpateHaptics", "vtkRenderingOpenGL", "vtkInteraction",
+                   "libGL.", "libX11", "libhidapi")
+        for command in (("info", self.model), ("stiffness", self.model), ("--version",)):
+            loaded = self.loaded(*command)
+            for library in drawing:
+                self.assertFalse(library in loaded, (command, library))
+        touching = self.loaded("touch", self.model, "--plan")
+        self.assertTrue("libpalpate_touch" in touching and "vtkRenderingOpenGL" in touching)
+
+
+if __name__ == "__main__":
+    unittest.main()
