@@ -278,26 +278,6 @@ class ServoThread(Windowed):
         self.assertEqual(style.GetNumberOfTicks(), stopped)
         self.assertIn("lateness", style.GetTimingTable())
 
-    def test_touches_while_the_window_draws(self):
-        style, window = self.open()
-        window.interactor.Initialize()
-        frames = []
-        window.window.AddObserver("EndEvent", lambda *_: frames.append(time.monotonic()))
-        self.assertTrue(style.Start())
-        window.look((0, -0.25, 0.3))
-        window.event("LeftButtonPressEvent", TOP)
-        window.start(20, until=style.IsTouching)  # at once but on a busy machine
-        self.assertTrue(style.IsTouching())
-        window.event("LeftButtonReleaseEvent")
-        window.run(20, until=lambda: not style.IsTouching())
-        self.assertFalse(style.IsTouching())
-        self.assertEqual(style.events, ["ContactBeginEvent", "ContactEndEvent"])
-        self.assertGreater(len(frames), 2)
-        style.Stop()
-        drawn = len(frames)
-        window.run(0.2)
-        self.assertEqual(len(frames), drawn)
-
     def test_takes_settings_at_once_and_stops_for_another_scene(self):
         style, window = self.open()
         self.assertTrue(style.Start())
