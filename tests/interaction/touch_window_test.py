@@ -6,6 +6,7 @@ Without a display it starts one of its own. PALPATE_STORE_PICTURES=1 stores new 
 before they are committed.
 """
 
+import gc
 import os
 import tempfile
 import time
@@ -296,7 +297,11 @@ class ServoThread(Windowed):
         style = Touch(block_model())
         style.Start()
         self.assertTrue(style.IsRunning())
-        del style  # hangs or crashes if it does not
+        gone = []
+        style.AddObserver("DeleteEvent", lambda *_: gone.append(True))
+        del style
+        gc.collect()  # its observers know it
+        self.assertEqual(gone, [True])
 
     def test_records_what_it_did(self):
         style, window = self.open()
