@@ -174,7 +174,7 @@ void UnilateralContact::look(int obstacle, int vertex) noexcept {
   }
   const double gap = proximity(obstacle, place + displacementOf(vertex)).distance;
   if (moving.body == 0 && gap > margin_)
-    moving.lookAt[vertex] = travelled_ + (gap - margin_) / 2 + margin_ / 16;
+    moving.lookAt[vertex] = travelled_ + (gap - margin_ / 2) / 2;
   else if (isNearestPart(obstacle, vertex, near.distance))
     watch(obstacle, vertex, near);
 }
@@ -262,7 +262,7 @@ void UnilateralContact::dismiss() noexcept {
     if (near.distance >= 2 * margin_)
       moving.lookAt[vertex] = travelled_ + near.distance - margin_;
     else if (moving.body == 0)
-      moving.lookAt[vertex] = travelled_ + (gap - margin_) / 2;
+      moving.lookAt[vertex] = travelled_ + (gap - margin_ / 2) / 2;
     else
       continue;
     unwatch(contact);

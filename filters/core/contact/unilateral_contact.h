@@ -43,7 +43,7 @@ struct UnilateralContactSettings {
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when its obstacle can have come near
-/// and, of those that the obstacle has pressed away from itself, when it has come half as near,
+/// and, of those that the obstacle has pressed away from itself, when it has come half as far,
 /// because they move too), linearises their gaps at the deformed place of
 /// the last step, and solves for the forces from the last ones on. Steps are quasi-static; sticking
 /// vertices keep the place on the obstacle where they stuck, and move with it.

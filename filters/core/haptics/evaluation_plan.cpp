@@ -36,16 +36,52 @@ constexpr double kTorque = 15;        ///< a contact's torque
 
 /// Nodes that a tool touches.
 struct Touched {
-  double loaded, watched, rim;  ///< rim: nodes that a metre of travel brings in
+  double loaded, watched;
+  double rim;    ///< nodes that a metre of travel brings in
+  double looks;  ///< at nodes that it has pressed away, in a metre of travel
 };
 
-/// What is left behind is watched to twice the margin.
-Touched touchedBy(double radius, const BodySizes& body, double depth, double margin) {
+/// The gap outside a Hertz contact (K. L. Johnson, "Contact Mechanics", 1985, eq. 3.42a): of a ball
+/// of an effective radius, pressed in by a depth.
+double gapAt(double r, double effective, double depth) {
+  const double a = std::min(r, std::sqrt(effective * depth));
+  const double sunk =
+      ((2 * a * a - r * r) * std::asin(a / r) + a * std::sqrt(r * r - a * a)) / (kPi * effective);
+  return r * r / (2 * effective) - depth + sunk;
+}
+
+/// Where it is so wide.
+double radiusOfGap(double gap, double effective, double depth) {
+  double low = std::sqrt(effective * depth), high = std::sqrt(2 * effective * (depth + gap));
+  for (int step = 0; step < 60; ++step) {
+    const double middle = (low + high) / 2;
+    (gapAt(middle, effective, depth) < gap ? low : high) = middle;
+  }
+  return high;
+}
+
+/// What is left behind is watched to twice the margin. A rigid tool watches the surface as it is
+/// deformed, and looks at nodes that are near but for that at half the way to the watch.
+Touched touchedBy(double radius, const BodySizes& body, double depth, double margin, bool rigid) {
   const double effective = 1 / (1 / radius + 1 / body.radius);
-  const double ahead = 2 * effective * (depth + margin);  // radius of the watch, squared
-  const double behind = 2 * effective * (depth + 2 * margin);
-  return {kPi * effective * depth / body.nodeArea, kPi * (ahead + behind) / 2 / body.nodeArea,
-          2 * std::sqrt(ahead) / body.nodeArea};
+  const double end = std::sqrt(2 * effective * (depth + margin));  // near, undeformed
+  const double last = std::sqrt(2 * effective * (depth + 2 * margin));
+  const double ahead = rigid ? radiusOfGap(margin, effective, depth) : end;
+  const double behind = rigid ? radiusOfGap(2 * margin, effective, depth) : last;
+  // A ball's middle goes round the body on a larger circle than its contact.
+  const double lever = std::isfinite(radius) ? 1 + radius / body.radius : 1;
+  double looks = 2 * end;  // once as they come near
+  for (const double begin : {ahead, behind}) {  // a half of the circle each
+    constexpr int steps = 64;
+    const double width = std::max(0.0, end - begin) / steps;
+    for (int step = 0; step < steps; ++step) {
+      const double r = begin + (step + 0.5) * width;
+      looks += kPi * r * width * 2 / (gapAt(r, effective, depth) - margin / 2);
+    }
+  }
+  return {kPi * effective * depth / body.nodeArea,
+          kPi * (ahead * ahead + behind * behind) / 2 / body.nodeArea, 2 * ahead / body.nodeArea,
+          rigid ? looks * lever / body.nodeArea : 0};
 }
 
 /// Shapes of a tool that touch at a time, and their radius, m.
@@ -119,22 +155,23 @@ class Planner {
 
   void planShapes() {
     const double margin = scene_.solver.margin > 0 ? scene_.solver.margin : first_.edge / 2;
-    Touched sum{0, 0, 0};
+    Touched sum{0, 0, 0, 0};
     double parts = 0;
-    const auto add = [&](double count, double radius) {
-      const Touched one = touchedBy(radius, first_, depth(first_), margin);
+    const auto add = [&](double count, double radius, bool rigid) {
+      const Touched one = touchedBy(radius, first_, depth(first_), margin, rigid);
       sum.loaded += count * one.loaded;
       sum.watched += count * one.watched;
       sum.rim += count * one.rim;
+      sum.looks += count * one.looks;
       return one.loaded;
     };
     for (const SceneTool& tool : scene_.tools) {
       const auto [count, radius] = roundingOf(tool);
-      add(count, radius);
+      add(count, radius, true);
       parts += partsOf(tool);
     }
     for (std::size_t i = 1; i < bodies_.size(); ++i) {
-      const double touching = add(1, bodies_[i].radius) * first_.nodeArea;  // m^2
+      const double touching = add(1, bodies_[i].radius, false) * first_.nodeArea;  // m^2
       // Corners of the triangles that are met: half an edge more all round.
       const double reach = std::sqrt(touching / kPi) + bodies_[i].edge / 2;
       loadedOf_[i] =
@@ -148,16 +185,20 @@ class Planner {
     const double most = std::min(scene_.solver.capacity, first_.nodes);
     plan_.watched = std::min(most, sum.watched);
     loadedOf_[0] = std::min(plan_.watched, sum.loaded);
-    planSolve(sum.rim * touch_.speed / scene_.servo.rate, parts);
+    const double way = touch_.speed / scene_.servo.rate;
+    planSolve(sum.rim * way, sum.looks * way, parts);
     planSolverMemory(parts);
   }
 
   /// @param entering  vertices that enter the watch in a tick, and leave it.
-  void planSolve(double entering, double parts) {
+  /// @param looked    pressed away by the tool, whose displacements are formed to see if they are.
+  void planSolve(double entering, double looked, double parts) {
     const double s = loadedOf_[0], w = plan_.watched;
     const double blocks = entering * ((first_.reciprocal ? 1 : 2) * w + 1);
     plan_.tick.push_back({"compliance of vertices that come near", w, entering,
                           kTurnedBlock * blocks, kNumber * kBlock * blocks});
+    plan_.tick.push_back({"vertices that were pressed away", looked, s, 2 * kBlock * looked * s,
+                          kNumber * kBlock * looked * s});
     plan_.tick.push_back({"search for vertices that come near", 0, 0,
                           parts * first_.nodes + 3 * kProximity * w,
                           parts * first_.nodes * (kNumber + 1)});

@@ -54,9 +54,10 @@ struct PlannedMemory {
 /// (H. Hertz, 1881; see K. L. Johnson, "Contact Mechanics", 1985, section 4.2),
 ///     a^2 = R_e d,  1 / R_e = 1 / R + 1 / R_b,
 /// so that s = pi a^2 / (mean vertex area) vertices bear forces; vertices are watched where the gap
-/// r^2 / (2 R_e) - d of the undeformed bodies is less than the solver's margin, and behind a tool
-/// that moves to twice that. A mesh is taken as flat, a hand as five fingertips. Depths below half
-/// an edge touch more vertices than this says: at least one.
+/// (his, outside the circle; of partners that of the undeformed bodies, r^2 / (2 R_e) - d) is less
+/// than the solver's margin, and behind a tool that moves to twice that. A mesh is taken as flat, a
+/// hand as five fingertips. Depths below half an edge touch more vertices than this says: at least
+/// one.
 ///
 /// What is asked of Green's functions, and the memory, are within a fifth of what tests count. The
 /// contact solver's own flops and bytes follow from the numbers of vertices, iterations and updates
