@@ -14,6 +14,7 @@
 #include "conversion.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/surface_mesh.h"
+#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

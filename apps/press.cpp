@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "picture/picture.h"
+#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

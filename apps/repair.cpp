@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

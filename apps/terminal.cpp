@@ -6,7 +6,6 @@
 #include <unistd.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
-#include <vtkElasticSurfaceReader.h>
 #include <vtkElasticSurfaceWriter.h>
 #include <vtkElastostaticAlgorithm.h>
 #include <vtkExecutive.h>
@@ -30,17 +29,12 @@
 
 #include "picture/picture.h"
 #include "progress_bar.h"
+#include "surface_file.h"
 
 namespace palpate::app {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-void silence(vtkObject* object) {
-  vtkNew<vtkCallbackCommand> nothing;
-  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  object->AddObserver(vtkCommand::ErrorEvent, nothing);
-}
 
 void onProgress(vtkObject* caller, unsigned long, void*, void*) {
   auto* filter = static_cast<vtkPolyDataAlgorithm*>(caller);
@@ -49,16 +43,6 @@ void onProgress(vtkObject* caller, unsigned long, void*, void*) {
 }
 
 }  // namespace
-
-vtkSmartPointer<vtkPolyData> readSurface(const std::string& path) {
-  vtkNew<vtkElasticSurfaceReader> reader;
-  reader->SetFileName(path.c_str());
-  silence(reader);
-  silence(reader->GetExecutive());
-  reader->Update();
-  if (*reader->GetFailureMessage()) throw std::runtime_error(reader->GetFailureMessage());
-  return reader->GetOutput();
-}
 
 void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending) {
   const auto complaint = [what, ending](const std::string& name) -> std::string {

@@ -20,8 +20,6 @@ class vtkPolyDataAlgorithm;
 /// What the subcommands share: files, progress, numbers on the terminal.
 namespace palpate::app {
 
-/// @throws std::runtime_error with the reader's sentence.
-vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
 /// Has an option's path checked before anything is computed: its ending, and that its folder can be
 /// written to.
 /// @param what  what is written, for the sentence.

@@ -36,8 +36,7 @@ void addLabOptions(CLI::App& command, TouchOptions& options) {
                    "render against rate and damping");
   command.add_option("--at", options.at, "Where the lab presses: the nearest point of the surface")
       ->expected(3);
-  requireNotNegative(
-      command.add_option("--depth", options.depth, "How deep, in the points' unit"));
+  requireNotNegative(command.add_option("--depth", options.depth, "How deep, in the points' unit"));
   command.add_option("--rates", options.rates, "Hz; by default 250 500 1000 2000 4000");
   command.add_option("--dampings", options.dampings, "N s/m; by default 0.1 0.5 2");
   command.add_option("--delays", options.delays, "Ticks from pose to force; by default 0 1");
@@ -80,8 +79,7 @@ void addTouch(CLI::App& program) {
   command->add_option("--record", options->record, "Write the device's motion to this file");
   command->add_option("--forces", options->forces,
                       "Write the forces that a scripted device rendered to this file, CSV");
-  requireNotNegative(
-      command->add_option("--seconds", options->seconds, "End after this time"));
+  requireNotNegative(command->add_option("--seconds", options->seconds, "End after this time"));
   command->add_flag("--headless", options->headless,
                     "Without a window, on virtual time: the same each time, bit for bit");
   command->add_flag("--plan", options->plan, "Print what a tick and a frame will compute, and end");

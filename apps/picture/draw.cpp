@@ -11,7 +11,6 @@
 #include <vtkDataArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -23,19 +22,16 @@
 #include <vtkScalarsToColors.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkWarpVector.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <Eigen/Geometry>
-#include <fstream>
 #include <stdexcept>
 
 #include "picture/colour_map.h"
 #include "picture/picture.h"
+#include "picture/png.h"
 #include "picture/virtual_display.h"
 
 namespace palpate::app {
@@ -180,28 +176,6 @@ vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
   camera->SetParallelScale(scale);
   camera->SetClippingRange(depth, 8 * depth);
   return camera;
-}
-
-void writePng(vtkRenderWindow* window, const std::string& path) {
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(window);
-  image->SetInputBufferTypeToRGB();
-  image->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;  // to memory: libpng prints what goes wrong with files
-  writer->WriteToMemoryOn();
-  writer->SetInputConnection(image->GetOutputPort());
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  const std::string partial = path + ".part";
-  std::ofstream file(partial, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  file.close();
-  if (!file || std::rename(partial.c_str(), path.c_str()) != 0) {
-    std::remove(partial.c_str());
-    throw std::runtime_error(path +
-                             ": the picture cannot be written: is the folder there and "
-                             "writable, is the disk full?");
-  }
 }
 
 void draw(const Picture& picture, const std::string& path) {

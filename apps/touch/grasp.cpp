@@ -24,6 +24,7 @@
 #include "haptics/touch_session.h"
 #include "picture/picture.h"
 #include "picture/virtual_display.h"
+#include "surface_file.h"
 #include "touch/touch_window.h"
 #include "touch/window.h"
 #include "touch_view.h"
@@ -150,7 +151,7 @@ void print(const ToolTouch& touch, const Tally& tally, int nodes) {
 }  // namespace
 
 void runGrasp(const TouchOptions& options) {
-  const auto surface = readModel(options.model);
+  const auto surface = readSurface(options.model);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
   const Eigen::Vector3d free(directionOntoFreeSurface(surface).data());

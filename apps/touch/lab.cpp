@@ -10,13 +10,11 @@
 #include <vtkDoubleArray.h>
 #include <vtkPen.h>
 #include <vtkPlotPoints.h>
-#include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +26,11 @@
 #include "haptics/touch_session.h"
 #include "mesh/surface_point.h"
 #include "picture/colour_map.h"
-#include "picture/picture.h"
+#include "picture/png.h"
 #include "picture/virtual_display.h"
 #include "progress_bar.h"
+#include "surface_file.h"
 #include "touch/touch_window.h"
-#include "touch/window.h"
 
 namespace palpate::app {
 namespace {
@@ -143,18 +141,7 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
   chart->GetAxis(vtkAxis::BOTTOM)->SetUnscaledRange(first / 1.1, last * 1.1);
   chart->GetAxis(vtkAxis::LEFT)->SetUnscaledRange(lowest / 1.5, highest * 6);
   view->GetRenderWindow()->Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(view->GetRenderWindow());
-  grab->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  const std::string unfinished = path + ".part.png";
-  writer->SetFileName(unfinished.c_str());
-  writer->SetInputConnection(grab->GetOutputPort());
-  writer->Write();
-  if (writer->GetErrorCode() != 0 || std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    std::remove(unfinished.c_str());
-    throw std::runtime_error(path + " cannot be written");
-  }
+  writePng(view->GetRenderWindow(), path);
 }
 
 /// The free place that is farthest from the support, or the middle of a floating free surface.
@@ -183,7 +170,7 @@ Eigen::Vector3d farthestFreePlace(const SceneBody& body) {
 void runLab(const TouchOptions& options) {
   if (options.model.empty())
     throw std::invalid_argument("the lab presses one model: give its file instead of a scene");
-  const auto surface = readModel(options.model);
+  const auto surface = readSurface(options.model);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
   Scene scene;

@@ -4,10 +4,7 @@
 #include "touch/touch_window.h"
 
 #include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 #include <vtkDoubleArray.h>
-#include <vtkElasticSurfaceReader.h>
-#include <vtkExecutive.h>
 #include <vtkInteractorStyleHaptic.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -21,33 +18,16 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 
-#include "picture/picture.h"
 #include "picture/virtual_display.h"
+#include "surface_file.h"
 #include "touch/window.h"
 
 namespace palpate::app {
 
 void require(bool done, vtkInteractorStyleHaptic* style) {
   if (!done) throw std::runtime_error(style->GetFailureMessage());
-}
-
-void silence(vtkObject* object) {
-  vtkNew<vtkCallbackCommand> nothing;
-  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  object->AddObserver(vtkCommand::ErrorEvent, nothing);
-}
-
-vtkSmartPointer<vtkPolyData> readModel(const std::string& path) {
-  vtkNew<vtkElasticSurfaceReader> reader;
-  silence(reader);
-  silence(reader->GetExecutive());
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (*reader->GetFailureMessage()) throw std::runtime_error(reader->GetFailureMessage());
-  return reader->GetOutput();
 }
 
 namespace {
@@ -79,7 +59,7 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   if (!options.scene.empty())
     require(style->LoadScene(options.scene.c_str()), style);
   else
-    require(style->SetModel(readModel(options.model)), style);
+    require(style->SetModel(readSurface(options.model)), style);
   if (options.scene.empty() || options.deviceGiven) setDevice(style, options.device);
   if (options.toolRadius != 0) require(style->SetToolToSphere(options.toolRadius), style);
   if (options.friction >= 0) require(style->SetFriction(options.friction), style);

@@ -5,19 +5,16 @@
 
 #include <vtkCamera.h>
 #include <vtkInteractorStyleHaptic.h>
-#include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
 
 #include "picture/picture.h"
+#include "picture/png.h"
 
 namespace palpate::app {
 
@@ -59,18 +56,7 @@ void Window::render() {
 
 void Window::write(const std::string& path) {
   render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(window_);
-  grab->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  const std::string unfinished = path + ".part.png";
-  writer->SetFileName(unfinished.c_str());
-  writer->SetInputConnection(grab->GetOutputPort());
-  writer->Write();
-  if (writer->GetErrorCode() != 0 || std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    std::remove(unfinished.c_str());
-    throw std::runtime_error(path + " cannot be written");
-  }
+  writePng(window_, path);
 }
 
 }  // namespace palpate::app

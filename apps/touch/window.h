@@ -4,14 +4,11 @@
 #pragma once
 
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
 #include <Eigen/Core>
 #include <string>
 
 class vtkInteractorStyleHaptic;
-class vtkObject;
-class vtkPolyData;
 class vtkRenderer;
 class vtkRenderWindow;
 class vtkRenderWindowInteractor;
@@ -43,9 +40,5 @@ class Window {
 
 /// @throws std::runtime_error with the style's sentence unless `done`.
 void require(bool done, vtkInteractorStyleHaptic* style);
-/// Keeps an object from printing its errors: they are thrown.
-void silence(vtkObject* object);
-/// @throws std::runtime_error with the reader's sentence.
-vtkSmartPointer<vtkPolyData> readModel(const std::string& path);
 
 }  // namespace palpate::app

@@ -11,26 +11,13 @@
 #include "support/allocation_count.h"
 #include "support/eventually.h"
 #include "support/fake_hid.h"
+#include "support/palpate_states.h"
 #include "support/refusals.h"
 
 namespace palpate::test {
 namespace {
 
 using Bytes = FakeHid::Bytes;
-
-/// A state with a number, which also says where the device is.
-Bytes stateReport(std::uint32_t sequence) {
-  PalpateState state;
-  state.flags = PalpateState::kCalibrated;
-  state.sequence = sequence;
-  state.pose.position.x() = 1e-6 * sequence;
-  const PalpateReport report = encodePalpateState(state);
-  return {report.begin(), report.end()};
-}
-
-Wrench push(double newtons) {
-  return {Eigen::Vector3d(newtons, 0, 0), Eigen::Vector3d::Zero()};
-}
 
 /// Devices that speak Palpate's own reports, in this program.
 class HidDevices : public testing::Test {

@@ -15,6 +15,7 @@
 #include "haptics/palpate_report.h"
 #include "support/eventually.h"
 #include "support/hid_emulator.h"
+#include "support/palpate_states.h"
 #include "support/pid_joystick.h"
 #include "support/refusals.h"
 
@@ -60,19 +61,6 @@ EmulatedModel stick(PidJoystick& joystick) {
   model.onSetFeature = [&](const Bytes& b) { return joystick.takeFeature(b.data(), b.size()); };
   model.onGetFeature = [&](std::uint8_t number) { return joystick.feature(number); };
   return model;
-}
-
-Bytes stateReport(std::uint32_t sequence) {
-  PalpateState state;
-  state.flags = PalpateState::kCalibrated;
-  state.sequence = sequence;
-  state.pose.position.x() = 1e-6 * sequence;
-  const PalpateReport report = encodePalpateState(state);
-  return {report.begin(), report.end()};
-}
-
-Wrench push(double newtons) {
-  return {Eigen::Vector3d(newtons, 0, 0), Eigen::Vector3d::Zero()};
 }
 
 HidRecord recordOf(const std::string& name) {

@@ -80,9 +80,6 @@ class ContactCompliance {
   const double* column(int k) const { return matrix_.data() + std::size_t(k) * stride_; }
   int stride() const { return stride_; }
 
-  /// Whether W of these bodies is symmetric.
-  bool isSymmetric() const { return symmetric_; }
-
  private:
   bool hasColumns(const ContactSite& site) const noexcept;
   void gatherBorder(const ContactSite& site) noexcept;
@@ -93,7 +90,7 @@ class ContactCompliance {
   std::vector<Eigen::Matrix3d> orientations_;
   double rigidStiffness_;
   int capacity_, stride_, count_ = 0;
-  bool symmetric_ = true;
+  bool symmetric_ = true;  ///< whether W is
   std::vector<ContactSite> sites_;
   AlignedBuffer<double> matrix_;
   std::vector<int> nodes_, owners_;  ///< scratch: parts of present contacts in one body

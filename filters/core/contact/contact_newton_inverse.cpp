@@ -195,7 +195,6 @@ bool ContactNewtonInverse::factor(const std::vector<Eigen::Matrix3d>& shares) no
   std::fill(slotOf_.begin(), slotOf_.end(), -1);
   active_ = active;
   for (int slot = 0; slot < active; ++slot) slotOf_[contactOf_[slot]] = slot;
-  ++factorisations_;
   if (lapack::getrf(size, size, lu, stride_, pivots_.data()) != 0 ||
       lapack::getri(size, lu, stride_, pivots_.data(), x_.data(), 3 * stride_) != 0) {
     clear();

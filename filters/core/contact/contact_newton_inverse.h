@@ -46,9 +46,7 @@ class ContactNewtonInverse {
   /// stays as it is.
   void apply(double* residual) const noexcept;
 
-  int activeCount() const { return active_; }
   long updates() const { return updates_; }
-  long factorisations() const { return factorisations_; }
 
  private:
   using Block = Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>;
@@ -71,7 +69,7 @@ class ContactNewtonInverse {
   AlignedBuffer<double> inverse_, factor_;
   mutable AlignedBuffer<double> left_, right_, x_, y_;  ///< scratch, stride by 3
   std::vector<int> pivots_;
-  long updates_ = 0, factorisations_ = 0;
+  long updates_ = 0;
 };
 
 }  // namespace palpate

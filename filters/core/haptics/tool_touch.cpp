@@ -10,6 +10,8 @@
 namespace palpate {
 namespace {
 
+const Wrench kNothing{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+
 std::vector<Obstacle> obstaclesOf(const std::vector<std::shared_ptr<const TouchTool>>& tools,
                                   double friction, const std::vector<ElasticPartner>& partners) {
   std::vector<Obstacle> obstacles;
@@ -42,7 +44,7 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
                settings) {
   if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
   for (const auto& tool : tools) {
-    tools_.push_back({tool, static_cast<int>(poses_.size()), {}});
+    tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNothing});
     poses_.resize(poses_.size() + tool->partCount());
   }
   for (const ElasticPartner& partner : partners) poses_.push_back(partner.pose);
@@ -55,7 +57,7 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
   }
   certificate_ = contact_.step(poses_.data());
   for (int t = 0; t < toolCount(); ++t) {
-    Wrench& sum = wrenches[t] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    Wrench& sum = tools_[t].wrench = kNothing;
     for (int part = 0; part < tools_[t].tool->partCount(); ++part) {
       if (!torques_) {
         sum.force += contact_.force(tools_[t].firstPart + part);
@@ -66,6 +68,7 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
       sum.force += wrench.force;
       sum.torque += wrench.torque + lever.cross(wrench.force);
     }
+    wrenches[t] = sum;
   }
   return certificate_;
 }
@@ -77,6 +80,7 @@ Wrench ToolTouch::partWrench(int tool, int part) const noexcept {
 void ToolTouch::reset() noexcept {
   contact_.reset();
   certificate_ = {};
+  for (Held& held : tools_) held.wrench = kNothing;
 }
 
 void ToolTouch::setFriction(double friction) noexcept {
@@ -105,6 +109,7 @@ void ToolTouch::fill(ContactSnapshot& snapshot) const noexcept {
     ToolContact& seen = snapshot.tools[t] = {};
     seen.pose = tools_[t].pose;
     seen.hapticPoint = tools_[t].pose.position;
+    seen.wrench = tools_[t].wrench;
   }
   std::size_t loads = 0;
   for (int i = 0; i < contact_.watchedCount(); ++i) {
@@ -121,7 +126,7 @@ void ToolTouch::fill(ContactSnapshot& snapshot) const noexcept {
   describe(snapshot);
 }
 
-/// What each tool feels, and the middle of its contact, weighted with force.
+/// Whether each tool touches, and the middle of its contact, weighted with force.
 void ToolTouch::describe(ContactSnapshot& snapshot) const noexcept {
   for (int t = 0; t < toolCount(); ++t) {
     ToolContact& seen = snapshot.tools[t];
@@ -137,10 +142,6 @@ void ToolTouch::describe(ContactSnapshot& snapshot) const noexcept {
       seen.sliding = seen.sliding || watched.status == ContactStatus::Slip;
       middle += force * contact_.restPlace(i);
       weight += force;
-      seen.wrench.force -= watched.force;
-      if (torques_)
-        seen.wrench.torque -=
-            (contact_.restPlace(i) + watched.displacement - seen.hapticPoint).cross(watched.force);
     }
     seen.touching = weight > 0;
     if (seen.touching) seen.staticPoint = middle / weight;

@@ -56,6 +56,7 @@ class ToolTouch final : public TouchModel {
     std::shared_ptr<const TouchTool> tool;
     int firstPart;  ///< among the obstacles
     ToolPose pose;
+    Wrench wrench;  ///< of the last step
   };
   std::vector<Held> tools_;
   std::vector<RigidPose> poses_;  ///< of all obstacles

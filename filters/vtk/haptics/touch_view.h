@@ -79,7 +79,6 @@ public:
   std::vector<int> FacingNodes(int body, vtkCamera* camera) const;
   /// Where a point of the first body is as it is drawn.
   Eigen::Vector3d DeformedPlace(int triangle, const Eigen::Vector3d& barycentric) const;
-  vtkActor* BodyActor(int body) const { return this->Bodies[body]->Actor; }
   vtkPolyData* Surface(int body) const { return this->Bodies[body]->Surface; }
   int NumberOfBodies() const { return static_cast<int>(this->Bodies.size()); }
   double Diagonal() const;
