@@ -15,8 +15,9 @@ namespace palpate {
 
 /// Where a contact acts: weights on up to four nodes of one or two bodies. Its displacement is the
 /// weighted sum of theirs, and a force on it acts on them by the same weights: +1 at the node of a
-/// body that meets a rigid tool; +1 at a node and minus the barycentric coordinates at the corners
-/// of the triangle of another elastic body that it meets.
+/// body that meets a rigid tool, or barycentric coordinates at the corners of a triangle; +1 at a
+/// node and minus the barycentric coordinates at the corners of the triangle of another elastic
+/// body that it meets.
 struct ContactSite {
   struct Part {
     int body, node;
@@ -26,6 +27,13 @@ struct ContactSite {
   std::array<Part, 4> parts;
 
   static ContactSite atNode(int body, int node) { return {1, {{{body, node, 1.0}}}}; }
+  static ContactSite inTriangle(int body, const Eigen::Vector3i& nodes,
+                                const Eigen::Vector3d& barycentric) {
+    return {3,
+            {{{body, nodes[0], barycentric[0]},
+              {body, nodes[1], barycentric[1]},
+              {body, nodes[2], barycentric[2]}}}};
+  }
 };
 
 /// The compliance between contacts, W ij = displacement (m) of contact i per force (N) at contact

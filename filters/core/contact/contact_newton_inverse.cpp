@@ -13,7 +13,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kRegularisation = 1e-6;  ///< epsilon; r W is of the order of one
+constexpr double kRegularisation = 1e-8;  ///< epsilon; r W is of the order of one
 
 }  // namespace
 
@@ -37,9 +37,14 @@ ContactNewtonInverse::ContactNewtonInverse(const ContactCompliance& compliance)
 
 void ContactNewtonInverse::append() noexcept {
   const int contact = compliance_->count() - 1;
+  slotOf_[contact] = -1;
+  moved(contact);
+}
+
+void ContactNewtonInverse::moved(int contact) noexcept {
+  if (slotOf_[contact] >= 0) erase(contact);
   scale_[contact] = 3 / compliance_->block(contact, contact).trace();
   share_[contact].setZero();
-  slotOf_[contact] = -1;
 }
 
 void ContactNewtonInverse::remove(int contact) noexcept {

@@ -31,6 +31,8 @@ class ContactNewtonInverse {
 
   /// Takes note of the compliance's last contact, which is open.
   void append() noexcept;
+  /// After the compliance has moved a contact: takes its rows out, until they are updated again.
+  void moved(int contact) noexcept;
   /// Before the compliance removes a contact: takes its rows out, and gives the last its number.
   void remove(int contact) noexcept;
   void clear() noexcept;

@@ -11,10 +11,21 @@
 namespace palpate {
 namespace {
 
-constexpr double kStaleShare = 0.25;  ///< |D - D of the inverse| from which rows are replaced
-constexpr double kEnoughGain = 0.5;   ///< of the residual, by which a step is worth repeating
-constexpr int kPatience = 4;          ///< Newton steps without gain before sweeps
-constexpr int kSweeps = 8;            ///< at a time
+constexpr double kStaleShare = 0.25;    ///< |D - D of the inverse| from which rows are replaced
+constexpr double kEnoughGain = 0.5;     ///< of the residual, by which a step is worth repeating
+constexpr int kPatience = 4;            ///< Newton steps without gain before sweeps
+constexpr int kSweeps = 8;              ///< at a time
+constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
+
+/// Sum of the changes of two sites' weights; infinite for other nodes.
+double driftBetween(const ContactSite& a, const ContactSite& b) {
+  double drift = 0;
+  for (int k = 0; k < a.count; ++k) {
+    if (a.parts[k].node != b.parts[k].node) return std::numeric_limits<double>::infinity();
+    drift += std::abs(a.parts[k].weight - b.parts[k].weight);
+  }
+  return drift;
+}
 
 }  // namespace
 
@@ -31,6 +42,7 @@ FrictionalContactSolver::FrictionalContactSolver(
   conditions_.resize(capacity);
   status_.resize(capacity, ContactStatus::Open);
   wanted_.resize(capacity);
+  drift_.resize(capacity);
   for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &best_})
     vector->setZero(compliance_->stride());
 }
@@ -40,6 +52,7 @@ bool FrictionalContactSolver::add(const ContactSite& site) noexcept {
   inverse_.append();
   const int n = count() - 1;
   wanted_[n].setZero();
+  drift_[n] = 0;
   status_[n] = ContactStatus::Open;
   conditions_[n] = {};
   for (Eigen::VectorXd* vector : {&forces_, &displacement_}) vector->segment<3>(3 * n).setZero();
@@ -53,10 +66,19 @@ void FrictionalContactSolver::remove(int contact) noexcept {
   conditions_[contact] = conditions_[last];
   status_[contact] = status_[last];
   wanted_[contact] = wanted_[last];
+  drift_[contact] = drift_[last];
   for (Eigen::VectorXd* vector : {&forces_, &displacement_}) {
     vector->segment<3>(3 * contact) = Eigen::Vector3d(vector->segment<3>(3 * last));
     vector->segment<3>(3 * last).setZero();
   }
+}
+
+void FrictionalContactSolver::move(int contact, const ContactSite& site) noexcept {
+  drift_[contact] += driftBetween(site, compliance_->site(contact));
+  compliance_->move(contact, site);
+  if (drift_[contact] <= kLargestDrift) return;
+  inverse_.moved(contact);
+  drift_[contact] = 0;
 }
 
 void FrictionalContactSolver::clear() noexcept {
@@ -146,6 +168,25 @@ int FrictionalContactSolver::renew(int mostUpdates) noexcept {
   return done;
 }
 
+/// The contact whose share has changed most since its rows were made; if none has, each in turn,
+/// because compliances may have.
+int FrictionalContactSolver::mostOutdated() noexcept {
+  constexpr double fresh = 1e-3;
+  int oldest = -1;
+  double most = fresh * fresh;
+  for (int i = 0; i < count(); ++i)
+    if (const double change = (wanted_[i] - inverse_.share(i)).squaredNorm(); change > most) {
+      most = change;
+      oldest = i;
+    }
+  if (oldest >= 0) return oldest;
+  for (int looked = 0; looked < count(); ++looked) {
+    refreshed_ = (refreshed_ + 1) % count();
+    if (!wanted_[refreshed_].isZero(0)) break;
+  }
+  return refreshed_;
+}
+
 /// f -= H (f - P). Contacts that open lose their force first, so that the others answer to that.
 void FrictionalContactSolver::newtonStep() noexcept {
   bool opened = false;
@@ -225,8 +266,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     updatesLeft -= renew(updatesLeft);
     // Where the steps gain little, rows that hardly changed or have drifted are worth a refresh.
     if (residual > kEnoughGain * last && updatesLeft > 0) {
-      cursor_ = (cursor_ + 1) % count();
-      inverse_.update(cursor_, wanted_[cursor_]);
+      const int oldest = mostOutdated();
+      inverse_.update(oldest, wanted_[oldest]);
       --updatesLeft;
     }
     last = residual;

@@ -71,11 +71,12 @@ class FrictionalContactSolver {
   void remove(int contact) noexcept;
   void clear() noexcept;
 
-  /// As ContactCompliance's. Newton's matrix follows as its rows are refreshed.
+  /// As ContactCompliance's. Newton's matrix follows as its rows are refreshed, and at once for a
+  /// contact that has moved by more than a few hundredths of its triangle.
   void turn(int body, const Eigen::Matrix3d& orientation) noexcept {
     compliance_->turn(body, orientation);
   }
-  void move(int contact, const ContactSite& site) noexcept { compliance_->move(contact, site); }
+  void move(int contact, const ContactSite& site) noexcept;
 
   ContactConditions& conditions(int contact) { return conditions_[contact]; }
 
@@ -102,6 +103,7 @@ class FrictionalContactSolver {
   double clipped() noexcept;
   bool isStale(int contact) const noexcept;
   int renew(int mostUpdates) noexcept;
+  int mostOutdated() noexcept;
   void newtonStep() noexcept;
   void sweep() noexcept;
   double largestForce() const noexcept;
@@ -111,9 +113,11 @@ class FrictionalContactSolver {
   ContactNewtonInverse inverse_;
   std::vector<ContactConditions> conditions_;
   std::vector<ContactStatus> status_;
+  std::vector<double> drift_;            ///< sums of the weights' changes since rows were made
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
   Eigen::VectorXd forces_, displacement_, residual_, best_;
-  int cursor_ = 0;          ///< contact whose rows were replaced last
+  int cursor_ = 0;          ///< contact whose rows were replaced last because they were stale
+  int refreshed_ = 0;       ///< and because steps did not gain
   bool unsettled_ = false;  ///< whether the last solve was cut
 };
 

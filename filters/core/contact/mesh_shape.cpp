@@ -3,8 +3,11 @@
 
 #include "contact/mesh_shape.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "mesh/triangle_queries.h"
 #include "mesh/triangle_sides.h"
 
 namespace palpate {
@@ -38,13 +41,38 @@ Eigen::Matrix3Xd edgeNormals(const SurfaceMesh& mesh) {
   return normals;
 }
 
+double smallestConvexRadius(const SurfaceMesh& mesh) {
+  constexpr double sharp = 3.14159265358979323846 / 6;
+  double smallest = std::numeric_limits<double>::infinity();
+  forEachEdge(sortedSides(mesh.triangles()), [&](auto first, auto last) {
+    const Eigen::Vector3d edge = mesh.points().col(first->high) - mesh.points().col(first->low);
+    for (auto one = first; one != last; ++one)
+      for (auto other = std::next(one); other != last; ++other) {
+        const Eigen::Vector3d across = mesh.triangleNormals()
+                                           .col(one->triangle)
+                                           .cross(mesh.triangleNormals().col(other->triangle));
+        const double turn = std::atan2((one->upwards ? 1 : -1) * across.dot(edge) / edge.norm(),
+                                       mesh.triangleNormals()
+                                           .col(one->triangle)
+                                           .dot(mesh.triangleNormals().col(other->triangle)));
+        if (turn <= 0) continue;  // concave
+        const double centres =
+            2.0 / 3 / edge.norm() *
+            (mesh.triangleAreas()[one->triangle] + mesh.triangleAreas()[other->triangle]);
+        smallest = std::min(smallest, turn > sharp ? 0 : centres / turn);
+      }
+  });
+  return smallest;
+}
+
 }  // namespace
 
 MeshShape::MeshShape(std::shared_ptr<const SurfaceMesh> mesh)
     : locator_(mesh),
       vertexNormals_(angleWeightedNormals(*mesh)),
       edgeNormals_(edgeNormals(*mesh)),
-      reach_(mesh->points().colwise().norm().maxCoeff()) {}
+      reach_(mesh->points().colwise().norm().maxCoeff()),
+      smallestRadius_(smallestConvexRadius(*mesh)) {}
 
 Eigen::Vector3d MeshShape::pseudonormal(const SurfacePoint& point) const noexcept {
   constexpr double onEdge = 1e-12;
@@ -74,6 +102,32 @@ Proximity MeshShape::proximity(const Eigen::Vector3d& place) const noexcept {
   proximity.triangle = nearest.triangle;
   proximity.barycentric = nearest.barycentric;
   return proximity;
+}
+
+Eigen::Vector3d MeshShape::deepest(const Eigen::Matrix3d& corners) const noexcept {
+  constexpr double third = 1.0 / 3, accuracy = 1e-3;
+  const double size = (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
+  Eigen::Vector3d best = Eigen::Vector3d::Constant(third);
+  Proximity depth = proximity(corners * best);
+  for (int k = 0; k < 3; ++k)
+    if (const Proximity corner = proximity(corners.col(k)); corner.distance < depth.distance) {
+      best = Eigen::Vector3d::Unit(k);
+      depth = corner;
+    }
+  constexpr int mostSteps = 48;
+  double step = size / 2;
+  for (int k = 0; k < mostSteps && step > accuracy * size; ++k) {
+    const Eigen::Vector3d point = nearestInTriangle(corners * best - step * depth.normal,
+                                                    corners.col(0), corners.col(1), corners.col(2));
+    const Proximity there = proximity(corners * point);
+    if (there.distance < depth.distance) {
+      best = point;
+      depth = there;
+    } else {
+      step /= 2;
+    }
+  }
+  return best;
 }
 
 }  // namespace palpate

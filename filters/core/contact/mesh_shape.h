@@ -18,7 +18,14 @@ class MeshShape final : public RigidShape {
   explicit MeshShape(std::shared_ptr<const SurfaceMesh> mesh);
 
   Proximity proximity(const Eigen::Vector3d& place) const noexcept override;
+  /// By descent along the distance's gradient on the triangle, to a thousandth of its size: the
+  /// deepest point near where the distance is least of the corners and the middle (M. Macklin et
+  /// al., "Local Optimization for Robust Signed Distance Field Collision", PACMCGIT 3 (2020)).
+  Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override { return reach_; }
+  /// 0 if normals on both sides of a convex edge differ by more than 30 degrees; else the least of
+  /// the radii by which they turn between the triangles' centres.
+  double smallestRadius() const noexcept override { return smallestRadius_; }
 
  private:
   Eigen::Vector3d pseudonormal(const SurfacePoint& point) const noexcept;
@@ -26,7 +33,7 @@ class MeshShape final : public RigidShape {
   SurfaceLocator locator_;
   Eigen::Matrix3Xd vertexNormals_;  ///< angle-weighted, #V
   Eigen::Matrix3Xd edgeNormals_;    ///< 3 #F: of the edge opposite to each corner
-  double reach_;
+  double reach_, smallestRadius_;
 };
 
 }  // namespace palpate

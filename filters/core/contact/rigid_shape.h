@@ -34,8 +34,14 @@ class RigidShape {
   virtual ~RigidShape() = default;
   /// @param place  in the shape's frame, finite.
   virtual Proximity proximity(const Eigen::Vector3d& place) const noexcept = 0;
+  /// The point of a triangle that lies deepest in the shape, in barycentric coordinates.
+  /// @param corners  in columns, in the shape's frame, finite.
+  virtual Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept = 0;
   /// Radius of a ball around the frame's origin that holds the shape, m; infinite for a half space.
   virtual double reach() const noexcept = 0;
+  /// Of what sticks out of the shape, m; 0 for edges. Finer meshes than this meet it with their
+  /// vertices.
+  virtual double smallestRadius() const noexcept = 0;
 };
 
 /// A ball around the origin.
@@ -44,7 +50,9 @@ class SphereShape final : public RigidShape {
   /// @throws std::invalid_argument for a radius that is not positive.
   explicit SphereShape(double radius);
   Proximity proximity(const Eigen::Vector3d& place) const noexcept override;
+  Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override { return radius_; }
+  double smallestRadius() const noexcept override { return radius_; }
 
  private:
   double radius_;
@@ -57,7 +65,9 @@ class CapsuleShape final : public RigidShape {
   /// @throws std::invalid_argument for a radius that is not positive or ends that are not finite.
   CapsuleShape(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
   Proximity proximity(const Eigen::Vector3d& place) const noexcept override;
+  Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override;
+  double smallestRadius() const noexcept override { return radius_; }
 
  private:
   Eigen::Vector3d from_, axis_;
@@ -70,7 +80,11 @@ class PlaneShape final : public RigidShape {
   Proximity proximity(const Eigen::Vector3d& place) const noexcept override {
     return {place.z(), Eigen::Vector3d::UnitZ()};
   }
+  Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override { return std::numeric_limits<double>::infinity(); }
+  double smallestRadius() const noexcept override {
+    return std::numeric_limits<double>::infinity();
+  }
 };
 
 }  // namespace palpate

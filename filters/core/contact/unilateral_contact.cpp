@@ -11,10 +11,6 @@
 namespace palpate {
 namespace {
 
-/// A vertex cannot be touched from where its own body is: of the cosine between its normal and the
-/// way out of the obstacle. Corners look aside.
-constexpr double kLargestCosine = 0.5;
-
 std::vector<std::shared_ptr<const GreensFunctions>> bodiesOf(
     std::shared_ptr<const GreensFunctions> greens, const std::vector<Obstacle>& obstacles) {
   std::vector bodies{std::move(greens)};
@@ -81,11 +77,14 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     moving.obstacle = std::move(obstacle);
     moving.lookAt.assign(mesh_->vertexCount(), 0);
     moving.isWatched.assign(mesh_->vertexCount(), false);
+    if (moving.body == 0) findLargeTriangles(moving);
     while (static_cast<int>(partOf_.size()) <= moving.obstacle.tool)
       partOf_.emplace_back(mesh_->vertexCount(), -1);
     obstacles_.push_back(std::move(moving));
   }
   anchors_.resize(settings.capacity);
+  loadedNodes_.resize(4 * std::size_t(settings.capacity));
+  tractions_.setZero(12 * Eigen::Index(settings.capacity));
   centre_ = (mesh_->points().rowwise().minCoeff() + mesh_->points().rowwise().maxCoeff()) / 2;
   radius_ = (mesh_->points().colwise() - centre_).colwise().norm().maxCoeff();
 }
@@ -103,6 +102,7 @@ void UnilateralContact::setStiffnessScale(double scale) {
 
 void UnilateralContact::reset() noexcept {
   solver_.clear();
+  loadCount_ = 0;
   for (Moving& moving : obstacles_) {
     moving.placed = false;
     std::fill(moving.isWatched.begin(), moving.isWatched.end(), false);
@@ -118,103 +118,18 @@ Proximity UnilateralContact::proximity(int obstacle, const Eigen::Vector3d& plac
   return near;
 }
 
-/// Where a watched vertex is, relative to an elastic obstacle as it would lie undeformed.
+Eigen::Vector3d UnilateralContact::restPlace(int contact) const noexcept {
+  const ContactSite& where = site(contact);
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (int p = 0; p < where.count; ++p)
+    if (where.parts[p].body == 0)
+      place += where.parts[p].weight * mesh_->points().col(where.parts[p].node);
+  return place;
+}
+
+/// Where a watched point is, relative to an elastic obstacle as it would lie undeformed.
 Eigen::Vector3d UnilateralContact::placeOf(int contact) const noexcept {
-  return mesh_->points().col(anchors_[contact].vertex) + solver_.displacement(contact);
-}
-
-/// How far any point of an obstacle near the surface has moved to a pose, at most.
-double UnilateralContact::wayOf(int obstacle, const RigidPose& pose) const noexcept {
-  const Moving& moving = obstacles_[obstacle];
-  if (!moving.placed) return 0;
-  const double lever =
-      std::min(moving.obstacle.shape->reach(), (moving.pose.position - centre_).norm() + radius_);
-  return (pose.position - moving.pose.position).norm() +
-         lever * moving.pose.orientation.angularDistance(pose.orientation);
-}
-
-/// The poses, and which vertices they may have brought near. One obstacle's way counts for all: it
-/// may press the surface into another.
-void UnilateralContact::advance(const RigidPose* poses) noexcept {
-  double way = 0;
-  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle)
-    way = std::max(way, wayOf(obstacle, poses[obstacle]));
-  travelled_ += way;
-  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle) {
-    Moving& moving = obstacles_[obstacle];
-    if (!moving.placed) std::fill(moving.lookAt.begin(), moving.lookAt.end(), 0);
-    moving.pose = poses[obstacle];
-    moving.placed = true;
-  }
-  for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle)
-    for (int vertex = 0; vertex < mesh_->vertexCount(); ++vertex)
-      if (obstacles_[obstacle].lookAt[vertex] <= travelled_ &&
-          !obstacles_[obstacle].isWatched[vertex])
-        look(obstacle, vertex);
-}
-
-/// Watches a vertex that is near, and tells when to look at it again if it is not.
-void UnilateralContact::look(int obstacle, int vertex) noexcept {
-  Moving& moving = obstacles_[obstacle];
-  const Eigen::Vector3d place = mesh_->points().col(vertex);
-  const double reach = moving.obstacle.shape->reach();
-  const double atLeast = (place - moving.pose.position).norm() - reach;
-  if (atLeast > margin_) {
-    moving.lookAt[vertex] = travelled_ + atLeast - margin_;
-    return;
-  }
-  const Proximity near = proximity(obstacle, place);
-  if (near.distance > margin_) {
-    moving.lookAt[vertex] = travelled_ + near.distance - margin_;
-    return;
-  }
-  if (near.normal.dot(mesh_->vertexNormals().col(vertex)) > kLargestCosine) {
-    moving.lookAt[vertex] = travelled_ + margin_ / 4;
-    return;
-  }
-  const double gap = proximity(obstacle, place + displacementOf(vertex)).distance;
-  if (moving.body == 0 && gap > margin_)
-    moving.lookAt[vertex] = travelled_ + (gap - margin_ / 2) / 2;
-  else if (isNearestPart(obstacle, vertex, near.distance))
-    watch(obstacle, vertex, near);
-}
-
-/// Displacement of a vertex under the forces of the last step.
-Eigen::Vector3d UnilateralContact::displacementOf(int vertex) const noexcept {
-  const GreensFunctions& greens = solver_.compliance().body(0);
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
-  for (int contact = 0; contact < solver_.count(); ++contact) {
-    const int node = anchors_[contact].vertex;
-    const Eigen::Vector3d force = solver_.force(contact);
-    if (force.isZero(0) || greens.isFixed(node) || greens.isFixed(vertex)) continue;
-    Eigen::Matrix3d block;
-    greens.gather(Eigen::Map<const Eigen::VectorXi>(&vertex, 1),
-                  Eigen::Map<const Eigen::VectorXi>(&node, 1), block.data());
-    displacement += block * force / greens.vertexArea(node);
-  }
-  return displacement;
-}
-
-/// Whether a vertex is not watched with a nearer part of the same tool. One that is farther, by
-/// more than chatter, lets go of it.
-bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance) noexcept {
-  Moving& moving = obstacles_[obstacle];
-  if (moving.obstacle.tool < 0) return true;
-  const int held = partOf_[moving.obstacle.tool][vertex];
-  if (held < 0) return true;
-  const double other = proximity(held, mesh_->points().col(vertex)).distance;
-  const double chatter = margin_ / 8;
-  if (distance > other - chatter) {
-    moving.lookAt[vertex] = travelled_ + std::max(chatter, (distance - other) / 2);
-    return false;
-  }
-  for (int contact = 0; contact < solver_.count(); ++contact)
-    if (anchors_[contact].obstacle == held && anchors_[contact].vertex == vertex) {
-      unwatch(contact);
-      break;
-    }
-  obstacles_[held].lookAt[vertex] = travelled_ + chatter;
-  return true;
+  return restPlace(contact) + solver_.displacement(contact);
 }
 
 ContactSite UnilateralContact::siteAt(int obstacle, int vertex,
@@ -226,47 +141,6 @@ ContactSite UnilateralContact::siteAt(int obstacle, int vertex,
     site.parts[site.count++] = {moving.body, moving.obstacle.mesh->triangles()(k, near.triangle),
                                 -near.barycentric[k]};
   return site;
-}
-
-void UnilateralContact::watch(int obstacle, int vertex, const Proximity& near) noexcept {
-  if (!solver_.add(siteAt(obstacle, vertex, near))) {
-    overflowed_ = true;
-    return;
-  }
-  const int contact = solver_.count() - 1;
-  anchors_[contact] = {obstacle, vertex, Eigen::Vector3d::Constant(NAN), near.distance};
-  obstacles_[obstacle].isWatched[vertex] = true;
-  const int tool = obstacles_[obstacle].obstacle.tool;
-  if (tool >= 0) partOf_[tool][vertex] = obstacle;
-  ++transitions_;
-}
-
-void UnilateralContact::unwatch(int contact) noexcept {
-  const int last = solver_.count() - 1;
-  Moving& moving = obstacles_[anchors_[contact].obstacle];
-  moving.isWatched[anchors_[contact].vertex] = false;
-  if (moving.obstacle.tool >= 0) partOf_[moving.obstacle.tool][anchors_[contact].vertex] = -1;
-  solver_.remove(contact);
-  anchors_[contact] = anchors_[last];
-  ++transitions_;
-}
-
-/// Stops watching vertices that are well away, as they are and as they would be undeformed.
-void UnilateralContact::dismiss() noexcept {
-  for (int contact = solver_.count() - 1; contact >= 0; --contact) {
-    if (solver_.status(contact) != ContactStatus::Open || anchors_[contact].gap < 2 * margin_)
-      continue;
-    const auto [obstacle, vertex, place, gap] = anchors_[contact];
-    const Proximity near = proximity(obstacle, mesh_->points().col(vertex));
-    Moving& moving = obstacles_[obstacle];
-    if (near.distance >= 2 * margin_)
-      moving.lookAt[vertex] = travelled_ + near.distance - margin_;
-    else if (moving.body == 0)
-      moving.lookAt[vertex] = travelled_ + (gap - margin_ / 2) / 2;
-    else
-      continue;
-    unwatch(contact);
-  }
 }
 
 void UnilateralContact::turnBodies(const RigidPose* poses) noexcept {
@@ -291,7 +165,15 @@ void UnilateralContact::moveSites() noexcept {
   }
 }
 
-/// Gap and slip of each watched vertex where it is now, to first order in its displacement.
+/// The normal of a contact. Beside an edge or corner of a tool that pierces a triangle the way out
+/// of the tool is to its side; but a face can yield to them along its own normal alone.
+Eigen::Vector3d UnilateralContact::normalOf(const Anchor& anchor,
+                                            const Proximity& near) const noexcept {
+  const bool isSharp = obstacles_[anchor.obstacle].obstacle.shape->smallestRadius() == 0;
+  return anchor.vertex < 0 && isSharp ? (-anchor.faceNormal).eval() : near.normal;
+}
+
+/// Gap and slip of each watched point where it is now, to first order in its displacement.
 void UnilateralContact::linearise() noexcept {
   for (int contact = 0; contact < solver_.count(); ++contact) {
     Anchor& anchor = anchors_[contact];
@@ -302,14 +184,14 @@ void UnilateralContact::linearise() noexcept {
     const Eigen::Vector3d moved = place - moving.pose.toWorld(anchor.place);
     ContactConditions& conditions = solver_.conditions(contact);
     const Eigen::Vector3d displacement = solver_.displacement(contact);
-    conditions.normal = near.normal;
+    const Eigen::Vector3d normal = normalOf(anchor, near);
+    conditions.normal = normal;
     conditions.friction = moving.obstacle.friction;
-    conditions.offset =
-        near.distance * near.normal + moved - near.normal.dot(moved) * near.normal - displacement;
+    conditions.offset = near.distance * normal + moved - normal.dot(moved) * normal - displacement;
   }
 }
 
-/// Vertices that do not stick take their place on the obstacle with them.
+/// Points that do not stick take their place on the obstacle with them.
 void UnilateralContact::settle() noexcept {
   penetration_ = 0;
   for (int contact = 0; contact < solver_.count(); ++contact) {
@@ -326,11 +208,13 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
   overflowed_ = false;
   turnBodies(poses);
   dismiss();
+  gatherLoads();
   advance(poses);
   solver_.updateDisplacements();
   ContactCertificate certificate;
   for (int k = 0; k < settings_.linearisations; ++k) {
     if (solver_.compliance().bodyCount() > 1) moveSites();
+    if (followInside(k == 0)) solver_.updateDisplacements();
     linearise();
     const int before = certificate.iterations;
     const bool cut = certificate.budgetCut;
@@ -366,6 +250,7 @@ UnilateralContact::Watched UnilateralContact::watched(int contact) const noexcep
   const Anchor& anchor = anchors_[contact];
   return {anchor.obstacle,
           anchor.vertex,
+          anchor.vertex < 0 ? obstacles_[anchor.obstacle].large[anchor.slot] : -1,
           solver_.status(contact),
           stiffnessScale_ * solver_.force(contact),
           solver_.displacement(contact),

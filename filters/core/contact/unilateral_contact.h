@@ -28,7 +28,7 @@ struct Obstacle {
 };
 
 struct UnilateralContactSettings {
-  int capacity = 128;  ///< most vertices watched at a time, over all obstacles
+  int capacity = 128;  ///< most points watched at a time, over all obstacles
   /// m: a vertex is watched from this distance of its undeformed place to an obstacle on, and no
   /// longer beyond twice that; 0 for half the mean edge.
   double margin = 0;
@@ -37,9 +37,14 @@ struct UnilateralContactSettings {
   ContactSolverSettings solver;
 };
 
-/// Contact of an elastic surface with rigid tools and other elastic bodies: vertices may not enter
-/// an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all obstacles
-/// follow together, from the rows of watched vertices alone ([JP01] sections 4.3 and 5.3).
+/// Contact of an elastic surface with rigid tools and other elastic bodies: its points may not
+/// enter an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all
+/// obstacles follow together, from the rows of watched points alone ([JP01] sections 4.3 and 5.3).
+///
+/// The points are the vertices, and in each triangle longer than half the smallest radius of a
+/// rigid tool the one that lies deepest in it as the surface is deformed: the centre of pressure,
+/// whose force acts on the corners by its barycentric coordinates. It follows the tool from step to
+/// step.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when its obstacle can have come near
@@ -76,20 +81,20 @@ class UnilateralContact {
   Eigen::Vector3d force(int obstacle) const noexcept;
 
   int capacity() const { return solver_.compliance().capacity(); }
-  /// Vertices watched, numbered in no order that lasts beyond a step.
+  /// Points watched, numbered in no order that lasts beyond a step.
   int watchedCount() const { return solver_.count(); }
   struct Watched {
-    int obstacle, vertex;
+    int obstacle;
+    int vertex;    ///< -1 for a point inside a triangle
+    int triangle;  ///< -1 for a vertex
     ContactStatus status;
     Eigen::Vector3d force;         ///< on the surface, N
     Eigen::Vector3d displacement;  ///< relative to an elastic obstacle's, m
     double gap;                    ///< to the obstacle as it is after the step, m
   };
   Watched watched(int contact) const noexcept;
-  /// Where a watched vertex lies undeformed, m.
-  Eigen::Vector3d restPlace(int contact) const noexcept {
-    return mesh_->points().col(anchors_[contact].vertex);
-  }
+  /// Where a watched point lies undeformed, m.
+  Eigen::Vector3d restPlace(int contact) const noexcept;
   /// The nodes that its force acts on, and by what share.
   const ContactSite& site(int contact) const { return solver_.compliance().site(contact); }
 
@@ -103,28 +108,52 @@ class UnilateralContact {
 
   /// The solver, for its counts.
   const FrictionalContactSolver& solver() const { return solver_; }
-  /// Largest penetration of a watched vertex after the last step, m.
+  /// Largest penetration of a watched point after the last step, m.
   double penetration() const { return penetration_; }
-  /// Vertices that have entered or left the watch so far.
+  /// Points that have entered or left the watch so far.
   long transitions() const { return transitions_; }
-  /// Whether a vertex was turned away for want of capacity in the last step.
+  /// Whether a point was turned away for want of capacity in the last step.
   bool overflowed() const { return overflowed_; }
 
  private:
+  /// A point cannot be touched from where its own body is: of the cosine between the surface's
+  /// normal and the way out of the obstacle. Corners look aside.
+  static constexpr double kLargestCosine = 0.5;
+
   void advance(const RigidPose* poses) noexcept;
   double wayOf(int obstacle, const RigidPose& pose) const noexcept;
   void turnBodies(const RigidPose* poses) noexcept;
   void look(int obstacle, int vertex) noexcept;
+  double wayLeft(double gap, double nearness) const noexcept;
+  void gatherLoads() noexcept;
   Eigen::Vector3d displacementOf(int vertex) const noexcept;
   bool isNearestPart(int obstacle, int vertex, double distance) noexcept;
   void watch(int obstacle, int vertex, const Proximity& near) noexcept;
   void unwatch(int contact) noexcept;
   void dismiss() noexcept;
-  void moveSites() noexcept;
+
+  struct Moving;
+  struct Anchor;
+  struct FacePoint;
+  void findLargeTriangles(Moving& moving) const;
+  Eigen::Matrix3d restCorners(int triangle) const noexcept;
+  Eigen::Matrix3d cornersOf(int triangle) const noexcept;
+  Eigen::Vector3d deepestIn(int obstacle, const Eigen::Matrix3d& corners) const noexcept;
+  FacePoint facePoint(int obstacle, const Eigen::Matrix3d& corners,
+                      const Eigen::Vector3d& barycentric) const noexcept;
+  Eigen::Vector3d balance(int contact, const Eigen::Matrix3d& corners) const noexcept;
+  bool isDeepestPart(int obstacle, const FacePoint& point) const noexcept;
+  void lookInside(int obstacle, int slot) noexcept;
+  bool watchInside(int obstacle, int slot, const FacePoint& point) noexcept;
+  void moveInside(int contact, const FacePoint& point) noexcept;
+  bool followInside(bool betweenSteps) noexcept;
+
   void linearise() noexcept;
   void settle() noexcept;
+  void moveSites() noexcept;
   Eigen::Vector3d placeOf(int contact) const noexcept;
   Proximity proximity(int obstacle, const Eigen::Vector3d& place) const noexcept;
+  Eigen::Vector3d normalOf(const Anchor& anchor, const Proximity& near) const noexcept;
   ContactSite siteAt(int obstacle, int vertex, const Proximity& near) const noexcept;
 
   /// One obstacle as it moves.
@@ -133,14 +162,19 @@ class UnilateralContact {
     int body = 0;  ///< number of an elastic obstacle among the bodies
     RigidPose pose;
     bool placed = false;
-    std::vector<double> lookAt;   ///< a vertex: travelled_ at which to look again
-    std::vector<char> isWatched;  ///< a vertex
+    std::vector<double> lookAt;      ///< a vertex: travelled_ at which to look again
+    std::vector<char> isWatched;     ///< a vertex
+    std::vector<int> large;          ///< triangles to be touched inside
+    std::vector<double> lookInside;  ///< one of them: travelled_ at which to look again
   };
-  /// What is known of a watched vertex beyond the solver.
+  /// What is known of a watched point beyond the solver.
   struct Anchor {
-    int obstacle, vertex;
+    int obstacle;
+    int vertex;             ///< -1 for a point inside a triangle
+    int slot;               ///< of that among the obstacle's large ones
     Eigen::Vector3d place;  ///< in the obstacle's frame, where it is or sticks
     double gap;
+    Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
   };
 
   std::shared_ptr<const SurfaceMesh> mesh_;
@@ -148,6 +182,9 @@ class UnilateralContact {
   std::vector<Moving> obstacles_;
   FrictionalContactSolver solver_;
   std::vector<Anchor> anchors_;
+  std::vector<int> loadedNodes_;  ///< free ones of the first body, of all forces
+  Eigen::VectorXd tractions_;     ///< on them, Pa
+  int loadCount_ = 0;
   std::vector<std::vector<int>> partOf_;  ///< a tool and vertex: the part that it is watched with
   Eigen::Vector3d centre_;                ///< of a ball that holds the surface
   double travelled_ = 0;  ///< m, no point of an obstacle near the surface has moved farther

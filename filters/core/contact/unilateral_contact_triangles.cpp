@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Contacts inside triangles.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "contact/unilateral_contact.h"
+
+namespace palpate {
+namespace {
+
+/// Of the margin, how far an obstacle moves before a triangle that is near, but has its deepest
+/// point in a corner or on another part of the tool, is looked at again: the depth missed between
+/// is the square of it over twice the tool's radius.
+constexpr double kSoon = 1.0 / 32;
+constexpr double kNear = 1.0 / 4;  ///< of the margin, the distance at which triangles are watched
+constexpr int kBalanceSteps = 12;
+constexpr double kSiteAccuracy = 1e-4;  ///< of barycentric coordinates
+
+}  // namespace
+
+/// A point of a triangle as it is deformed.
+struct UnilateralContact::FacePoint {
+  Eigen::Vector3d barycentric, place, faceNormal;
+  Proximity near;
+
+  bool isCorner() const { return barycentric.maxCoeff() > 1 - 1e-9; }
+};
+
+void UnilateralContact::findLargeTriangles(Moving& moving) const {
+  const double limit = moving.obstacle.shape->smallestRadius() / 2;
+  for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle) {
+    const Eigen::Matrix3d corners = restCorners(triangle);
+    for (int k = 0; k < 3; ++k)
+      if ((corners.col(k) - corners.col((k + 1) % 3)).norm() > limit) {
+        moving.large.push_back(triangle);
+        break;
+      }
+  }
+  moving.lookInside.assign(moving.large.size(), 0);
+}
+
+Eigen::Matrix3d UnilateralContact::restCorners(int triangle) const noexcept {
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = mesh_->points().col(mesh_->triangles()(k, triangle));
+  return corners;
+}
+
+/// The corners of a triangle under the gathered loads.
+Eigen::Matrix3d UnilateralContact::cornersOf(int triangle) const noexcept {
+  Eigen::Matrix3d corners = restCorners(triangle);
+  for (int k = 0; k < 3; ++k) corners.col(k) += displacementOf(mesh_->triangles()(k, triangle));
+  return corners;
+}
+
+Eigen::Vector3d UnilateralContact::deepestIn(int obstacle,
+                                             const Eigen::Matrix3d& corners) const noexcept {
+  const Moving& moving = obstacles_[obstacle];
+  Eigen::Matrix3d own;
+  for (int k = 0; k < 3; ++k) own.col(k) = moving.pose.toOwn(corners.col(k));
+  return moving.obstacle.shape->deepest(own);
+}
+
+UnilateralContact::FacePoint UnilateralContact::facePoint(
+    int obstacle, const Eigen::Matrix3d& corners,
+    const Eigen::Vector3d& barycentric) const noexcept {
+  const Eigen::Vector3d place = corners * barycentric;
+  return {barycentric, place,
+          (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized(),
+          proximity(obstacle, place)};
+}
+
+/// The point of a contact's triangle that is deepest when the contact's force acts there: the
+/// centre of pressure. As the force goes on, the triangle tilts away from where it presses and its
+/// deepest point comes back: steps are halved whenever it turns.
+Eigen::Vector3d UnilateralContact::balance(int contact,
+                                           const Eigen::Matrix3d& corners) const noexcept {
+  const GreensFunctions& greens = solver_.compliance().body(0);
+  const ContactSite& where = site(contact);
+  const Eigen::Vector3d force = solver_.force(contact);
+  std::array<Eigen::Matrix3d, 3> moved;  // all corners, by the force at each one
+  Eigen::Vector3d point;
+  Eigen::Matrix3d unmoved = corners;
+  for (int j = 0; j < 3; ++j) {
+    const int loaded = where.parts[j].node;
+    for (int k = 0; k < 3; ++k) {
+      const int node = where.parts[k].node;
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      if (!greens.isFixed(loaded) && !greens.isFixed(node))
+        greens.gather(Eigen::Map<const Eigen::VectorXi>(&node, 1),
+                      Eigen::Map<const Eigen::VectorXi>(&loaded, 1), block.data());
+      moved[j].col(k) = block * force / greens.vertexArea(loaded);
+    }
+    point[j] = where.parts[j].weight;
+    unmoved -= point[j] * moved[j];
+  }
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  double share = 1;
+  for (int k = 0; k < kBalanceSteps; ++k) {
+    const Eigen::Vector3d step =
+        deepestIn(anchors_[contact].obstacle,
+                  unmoved + point[0] * moved[0] + point[1] * moved[1] + point[2] * moved[2]) -
+        point;
+    if (step.dot(before) < 0) share /= 2;
+    point += share * step;
+    before = step;
+    if (step.cwiseAbs().maxCoeff() < kSiteAccuracy) break;
+  }
+  return point;
+}
+
+/// Whether no other part of the same tool holds the point more deeply, by more than chatter.
+bool UnilateralContact::isDeepestPart(int obstacle, const FacePoint& point) const noexcept {
+  const int tool = obstacles_[obstacle].obstacle.tool;
+  for (int other = 0; tool >= 0 && other < obstacleCount(); ++other)
+    if (other != obstacle && obstacles_[other].obstacle.tool == tool &&
+        proximity(other, point.place).distance < point.near.distance - margin_ / 8)
+      return false;
+  return true;
+}
+
+/// As look, for the inside of a triangle.
+void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
+  Moving& moving = obstacles_[obstacle];
+  double& lookAt = moving.lookInside[slot];
+  const int triangle = moving.large[slot];
+  const Eigen::Matrix3d corners = restCorners(triangle);
+  const Eigen::Vector3d middle = corners.rowwise().mean();
+  const double size = (corners.colwise() - middle).colwise().norm().maxCoeff();
+  double atLeast = (middle - moving.pose.position).norm() - moving.obstacle.shape->reach() - size;
+  const double nearness = kNear * margin_;
+  if (atLeast <= nearness) atLeast = proximity(obstacle, middle).distance - size;
+  if (atLeast > nearness) {
+    lookAt = travelled_ + atLeast - nearness;
+    return;
+  }
+  const Eigen::Matrix3d now = cornersOf(triangle);
+  const FacePoint point = facePoint(obstacle, now, deepestIn(obstacle, now));
+  if (point.near.distance > nearness)
+    lookAt = travelled_ + wayLeft(point.near.distance, nearness);
+  else if (!point.isCorner() && point.near.normal.dot(point.faceNormal) <= kLargestCosine &&
+           isDeepestPart(obstacle, point) && watchInside(obstacle, slot, point))
+    lookAt = std::numeric_limits<double>::infinity();
+  else
+    lookAt = travelled_ + kSoon * margin_;
+}
+
+bool UnilateralContact::watchInside(int obstacle, int slot, const FacePoint& point) noexcept {
+  const int triangle = obstacles_[obstacle].large[slot];
+  if (!solver_.add(
+          ContactSite::inTriangle(0, mesh_->triangles().col(triangle), point.barycentric))) {
+    overflowed_ = true;
+    return false;
+  }
+  anchors_[solver_.count() - 1] = {
+      obstacle, -1, slot, Eigen::Vector3d::Constant(NAN), point.near.distance, point.faceNormal};
+  ++transitions_;
+  return true;
+}
+
+/// Lets a contact go on to another point of its triangle. If it sticks, it sticks as far from
+/// there.
+void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept {
+  Anchor& anchor = anchors_[contact];
+  anchor.faceNormal = point.faceNormal;
+  ContactSite moved = site(contact);
+  double way = 0;
+  for (int k = 0; k < 3; ++k) {
+    way = std::max(way, std::abs(point.barycentric[k] - moved.parts[k].weight));
+    moved.parts[k].weight = point.barycentric[k];
+  }
+  if (way <= kSiteAccuracy) return;
+  const RigidPose& pose = obstacles_[anchor.obstacle].pose;
+  if (anchor.place.allFinite())
+    anchor.place += pose.toOwn(point.place) - pose.toOwn(placeOf(contact));
+  solver_.move(contact, moved);
+}
+
+/// Brings contacts inside triangles to where the obstacles are deepest. Between steps, stops
+/// watching those that bear nothing and are well away, in a corner or on another part. @return
+/// whether there were any.
+bool UnilateralContact::followInside(bool betweenSteps) noexcept {
+  const auto isInside = [](const Anchor& anchor) { return anchor.vertex < 0; };
+  if (std::none_of(anchors_.begin(), anchors_.begin() + solver_.count(), isInside)) return false;
+  const double nearness = kNear * margin_;
+  gatherLoads();
+  solver_.updateDisplacements();
+  for (int contact = solver_.count() - 1; contact >= 0; --contact) {
+    if (anchors_[contact].vertex >= 0) continue;
+    const int obstacle = anchors_[contact].obstacle, slot = anchors_[contact].slot;
+    Moving& moving = obstacles_[obstacle];
+    const Eigen::Matrix3d corners = cornersOf(moving.large[slot]);
+    const bool idle = solver_.force(contact).isZero(0);
+    const FacePoint point = facePoint(
+        obstacle, corners, idle ? deepestIn(obstacle, corners) : balance(contact, corners));
+    if (!betweenSteps || !idle ||
+        (!point.isCorner() && point.near.distance < 2 * nearness &&
+         isDeepestPart(obstacle, point))) {
+      if (!idle || point.near.distance < nearness / 2) moveInside(contact, point);
+      continue;
+    }
+    moving.lookInside[slot] =
+        travelled_ + std::max(kSoon * margin_, wayLeft(point.near.distance, nearness));
+    unwatch(contact);
+  }
+  return true;
+}
+
+}  // namespace palpate

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/mesh_shape.h"
+#include "contact/unilateral_contact.h"
+#include "support/allocation_count.h"
+#include "support/contact_bodies.h"
+
+// Tools smaller than the triangles that they touch.
+
+namespace palpate::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// 162 vertices, edges of about .3.
+const TouchedBody& coarseSphere() {
+  static const TouchedBody body = touchedSphere(2, true);
+  return body;
+}
+
+/// A cube held below, its top face of 2 by 2 squares.
+const TouchedBody& coarseCube() {
+  static const TouchedBody body = [] {
+    const Shape shape = box({1, 1, 1}, {2, 2, 2});
+    return touchedBody(shape, fixedWhere(shape, [](const auto& x) { return x.z() == 0; }), true);
+  }();
+  return body;
+}
+
+RigidPose at(const Eigen::Vector3d& position) {
+  RigidPose pose;
+  pose.position = position;
+  return pose;
+}
+
+UnilateralContactSettings still() {
+  UnilateralContactSettings settings;
+  settings.linearisations = 8;
+  return settings;
+}
+
+/// Corners of the whole surface as the contact forces deform it.
+Eigen::Matrix3Xd deformed(const UnilateralContact& contact, const TouchedBody& body) {
+  Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, body.mesh->vertexCount());
+  for (int i = 0; i < contact.watchedCount(); ++i) {
+    const ContactSite& site = contact.site(i);
+    for (int p = 0; p < site.count; ++p)
+      traction.col(site.parts[p].node) += site.parts[p].weight * contact.watched(i).force /
+                                          body.greens->vertexArea(site.parts[p].node);
+  }
+  for (int v = 0; v < body.mesh->vertexCount(); ++v)
+    if (body.greens->isFixed(v)) traction.col(v).setZero();
+  return body.mesh->points() + solveReferenceProblem(*body.greens, traction);
+}
+
+/// How deep any point of the deformed surface lies in a tool, over a lattice in each triangle.
+double deepest(const UnilateralContact& contact, const TouchedBody& body, const RigidShape& shape,
+               const RigidPose& pose) {
+  constexpr int n = 30;
+  const Eigen::Matrix3Xd places = deformed(contact, body);
+  double depth = 0;
+  for (int f = 0; f < body.mesh->triangleCount(); ++f) {
+    const Eigen::Vector3i t = body.mesh->triangles().col(f);
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) corners.col(k) = pose.toOwn(places.col(t[k]));
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j)
+        depth = std::max(depth,
+                         -shape.proximity(corners * Eigen::Vector3d(i, j, n - i - j) / n).distance);
+  }
+  return depth;
+}
+
+/// The point along a way from the middle of a body at a distance from its surface.
+Eigen::Vector3d outAlong(const Eigen::Vector3d& way, const MeshShape& surface, double distance) {
+  double low = 0, high = 2;
+  while (high - low > 1e-12) {
+    const double middle = (low + high) / 2;
+    (surface.proximity(middle * way).distance < distance ? low : high) = middle;
+  }
+  return low * way;
+}
+
+TEST(UnilateralContactTriangles, NoPointOfTheSurfaceEndsInASmallBall) {
+  const TouchedBody& body = coarseSphere();
+  const MeshShape surface(body.mesh);
+  for (double radius : {0.3, 0.1, 0.03, 0.01}) {
+    const auto shape = std::make_shared<SphereShape>(radius);
+    UnilateralContact contact(body.greens, body.mesh, {{shape, 0}}, still());
+    for (int tick = 0; tick < 150; ++tick) {  // over some eight triangles
+      const double angle = 0.008 * tick, depth = radius / 2 * std::min(1.0, 0.05 * tick);
+      const Eigen::Vector3d way =
+          Eigen::Vector3d(std::sin(angle), 0.1, std::cos(angle)).normalized();
+      const RigidPose pose = at(outAlong(way, surface, radius - depth));
+      EXPECT_LE(contact.step(&pose).residual, 1e-9) << radius << ' ' << tick;
+      if (tick % 5 == 0) {
+        EXPECT_LE(deepest(contact, body, *shape, pose), 1e-6 * radius) << radius << ' ' << tick;
+      }
+      if (tick > 0) {
+        EXPECT_GT(contact.force(0).norm(), 0) << radius << ' ' << tick;
+      }
+    }
+  }
+}
+
+/// Within a triangle a smooth point pushes along the triangle's normal as it tilts, so that nothing
+/// of the mesh is felt.
+TEST(UnilateralContactTriangles, ASmoothBallFeelsTheFaceAndNotItsPoints) {
+  const TouchedBody& body = coarseCube();
+  UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<SphereShape>(0.02), 0}},
+                            still());
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  double largest = 0, work = 0;
+  constexpr double step = 2e-3;
+  for (int tick = 0; tick < 300; ++tick) {
+    const RigidPose pose = at({0.2 + step * tick, 0.4, 1.018});
+    contact.step(&pose);
+    const Eigen::Vector3d force = contact.force(0);
+    ASSERT_GT(force.z(), 0);
+    if (tick > 0) {
+      largest = std::max(largest, (force - before).norm());
+      work += (force + before).x() / 2 * step;
+    }
+    before = force;
+  }
+  // Stiffness at vertices is about twice that between them, 1.5 and .8 N/m, over half an edge.
+  EXPECT_LE(largest, 2 * 1.5 * 0.002 * step / 0.25);
+  EXPECT_LE(std::abs(work), 1.5 * 0.002 * 0.002);  // the energies at the ends differ by less
+}
+
+TEST(UnilateralContactTriangles, ABallThatSticksIsHeldWhereItLanded) {
+  const TouchedBody& body = coarseCube();
+  UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<SphereShape>(0.02), 0.5}},
+                            still());
+  RigidPose pose = at({0.3, 0.4, 1.018});
+  contact.step(&pose);
+  const double pressure = contact.force(0).z();
+  double last = 0;
+  for (int tick = 1; tick <= 100; ++tick) {
+    pose.position.x() += 5e-5;
+    EXPECT_LE(contact.step(&pose).residual, 1e-9);
+    const Eigen::Vector3d force = contact.force(0);
+    EXPECT_LE(std::hypot(force.x(), force.y()), 0.5 * force.z() * 1.05);  // the triangle tilts
+    EXPECT_GE(-force.x(), last - 3e-3 * pressure) << tick;  // grows while it sticks, then stays
+    last = -force.x();
+  }
+  EXPECT_NEAR(last, 0.5 * contact.force(0).z(), 0.05 * pressure);
+  EXPECT_LT(contact.force(0).x(), -0.3 * pressure);
+}
+
+TEST(UnilateralContactTriangles, ABarAcrossTrianglesIsHeldAlongItsLength) {
+  const TouchedBody& body = coarseCube();
+  const auto bar =
+      std::make_shared<CapsuleShape>(Eigen::Vector3d(-0.3, 0, 0), Eigen::Vector3d(0.3, 0, 0), 0.01);
+  UnilateralContact contact(body.greens, body.mesh, {{bar, 0.3}}, {});
+  RigidPose pose = at({0.5, 0.35, 1.03});
+  for (int tick = 0; tick < 100; ++tick) {
+    pose.position.z() = std::max(1.0, 1.03 - 5e-4 * tick);
+    contact.step(&pose);
+  }
+  EXPECT_LE(deepest(contact, body, *bar, pose), 2e-5);
+  const Wrench rest = contact.wrench(0);
+  EXPECT_GT(rest.force.z(), 1e-3);
+  for (int tick = 0; tick < 20; ++tick) {  // it has come to rest
+    contact.step(&pose);
+    EXPECT_LE((contact.force(0) - rest.force).norm(), 1e-3 * rest.force.norm());
+  }
+}
+
+TEST(UnilateralContactTriangles, TheCornerOfABoxIsStoppedByAFace) {
+  const TouchedBody& body = coarseSphere();
+  const auto shape = std::make_shared<MeshShape>(box({0.2, 0.2, 0.2}, {1, 1, 1}).mesh());
+  UnilateralContact contact(body.greens, body.mesh, {{shape, 0.3}}, still());
+  RigidPose pose;
+  pose.orientation =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(0.1, 0.1, 1));
+  const Eigen::Vector3d way = Eigen::Vector3d(0.1, 0.1, 1).normalized();
+  for (int tick = 0; tick < 60; ++tick) {
+    pose.position = (1.0 - 5e-4 * tick) * way;
+    contact.step(&pose);
+  }
+  EXPECT_GT(contact.force(0).dot(way), 1e-3);
+  EXPECT_LE(deepest(contact, body, *shape, pose), 2e-3);
+}
+
+TEST(UnilateralContactTriangles, OverlappingPartsPressOnceWhereTheyCoincide) {
+  const TouchedBody& body = coarseSphere();
+  std::vector<Obstacle> parts{{std::make_shared<SphereShape>(0.03), 0.3}};
+  UnilateralContact one(body.greens, body.mesh, parts, still());
+  parts.push_back(parts[0]);
+  for (Obstacle& part : parts) part.tool = 0;
+  UnilateralContact both(body.greens, body.mesh, parts, still());
+  for (int tick = 0; tick < 40; ++tick) {
+    const double angle = 0.01 * tick;
+    const RigidPose pose = at(0.99 * Eigen::Vector3d(std::sin(angle), 0, std::cos(angle)));
+    const RigidPose poses[2] = {pose, pose};
+    one.step(&pose);
+    both.step(poses);
+    EXPECT_LE((both.force(0) + both.force(1) - one.force(0)).norm(), 0.01 * one.force(0).norm())
+        << tick;
+  }
+}
+
+TEST(UnilateralContactTriangles, StepsDoNotAllocate) {
+  ASSERT_TRUE(allocationsAreCounted());
+  const TouchedBody& body = coarseSphere();
+  UnilateralContact contact(
+      body.greens, body.mesh,
+      {{std::make_shared<SphereShape>(0.03), 0.3},
+       {std::make_shared<MeshShape>(box({0.1, 0.1, 0.1}, {1, 1, 1}).mesh()), 0.3}},
+      {});
+  const long before = allocationCount();
+  double largest = 0;
+  for (int tick = 0; tick < 50; ++tick) {
+    const double angle = 0.01 * tick;
+    const RigidPose poses[2] = {
+        at(Eigen::Vector3d(std::sin(angle), 0, std::cos(angle))),
+        at(0.97 * Eigen::Vector3d(std::sin(angle + 1), 0, std::cos(angle + 1)))};
+    contact.step(poses);
+    largest = std::max(largest, contact.force(0).norm());
+  }
+  EXPECT_EQ(allocationCount(), before);
+  EXPECT_GT(largest, 0);
+}
+
+}  // namespace
+}  // namespace palpate::test
