@@ -231,7 +231,7 @@ Eigen::Matrix3Xd CapacitanceSolver::solveAt(const BoundaryValues& values,
 Wrench wrenchOf(const GreensFunctions& greens, const Eigen::Matrix3Xd& points,
                 const std::vector<int>& nodes, const Eigen::Matrix3Xd& traction,
                 const Eigen::Vector3d& centre) {
-  Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Wrench wrench = kNoWrench;
   for (int node : nodes) {
     const Eigen::Vector3d force = greens.vertexArea(node) * traction.col(node);
     wrench.force += force;

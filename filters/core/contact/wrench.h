@@ -12,4 +12,7 @@ struct Wrench {
   Eigen::Vector3d force, torque;  ///< N, N m
 };
 
+/// Of what touches nothing.
+inline const Wrench kNoWrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+
 }  // namespace palpate

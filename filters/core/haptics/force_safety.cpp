@@ -12,8 +12,6 @@ namespace palpate {
 
 namespace {
 
-const Wrench kNoWrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-
 // A device's quaternion of 8 bits a component is still that of a rotation.
 constexpr double kQuaternionError = 0.02;
 // Seconds are sums of periods: a millionth of one more or less is rounding.

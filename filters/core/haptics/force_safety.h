@@ -89,7 +89,7 @@ class ForceSafety {
 
   struct Request {
     /// In the device's frame.
-    Wrench wanted{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    Wrench wanted = kNoWrench;
     ContactCertificate certificate;
     bool late = false;    ///< whether the tick is over its budget
     bool paused = false;  ///< fade and stay at zero, without a fault

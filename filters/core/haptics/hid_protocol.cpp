@@ -16,8 +16,6 @@
 namespace palpate {
 namespace {
 
-const Wrench kNoWrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-
 class SpaceMouseProtocol final : public HidProtocol {
  public:
   explicit SpaceMouseProtocol(const AxisScale& scale) : scale_(scale) {}

@@ -55,7 +55,7 @@ struct PalpateWrench {
   std::uint16_t flags = 0;
   std::uint32_t sequence = 0;  ///< one more with each report
   std::uint32_t answers = 0;   ///< sequence of the state that it answers
-  Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Wrench wrench = kNoWrench;
 };
 
 /// Report 3, a feature that the host reads when it opens the device.

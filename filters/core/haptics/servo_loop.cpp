@@ -13,8 +13,6 @@ namespace palpate {
 
 namespace {
 
-const Wrench kNoWrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-
 // As a rotation's quaternion is written in single precision.
 constexpr double kQuaternionError = 1e-6;
 

@@ -123,7 +123,7 @@ class ServoLoop {
     DeviceState state;
     ToolPose pose;                                       ///< the last valid one
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
-    Wrench rendered{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    Wrench rendered = kNoWrench;
   };
 
   Stage* addStage(std::shared_ptr<TouchModel> model);

@@ -9,20 +9,32 @@
 
 namespace palpate {
 
+namespace {
+
+/// Whether a snapshot's load is on a body's free surface.
+bool deforms(const GreensFunctions& greens, const ContactSnapshot& snapshot, int body, int load) {
+  return snapshot.loadedBodies[load] == body && !greens.isFixed(snapshot.loadedNodes[load]);
+}
+
+std::vector<int> nodesUnderForce(const GreensFunctions& greens, const ContactSnapshot& snapshot,
+                                 int body) {
+  std::vector<int> nodes;
+  for (int i = 0; i < snapshot.loadedCount; ++i)
+    if (deforms(greens, snapshot, body, i)) nodes.push_back(snapshot.loadedNodes[i]);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
 SnapshotTractions snapshotTractions(const GreensFunctions& greens, const ContactSnapshot& snapshot,
                                     int body, const Eigen::Matrix3d& orientation,
                                     double stiffnessScale) {
-  std::vector<int> nodes;
-  const auto deforms = [&](int i) {
-    return snapshot.loadedBodies[i] == body && !greens.isFixed(snapshot.loadedNodes[i]);
-  };
-  for (int i = 0; i < snapshot.loadedCount; ++i)
-    if (deforms(i)) nodes.push_back(snapshot.loadedNodes[i]);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<int> nodes = nodesUnderForce(greens, snapshot, body);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * nodes.size());
   for (int i = 0; i < snapshot.loadedCount; ++i) {
-    if (!deforms(i)) continue;
+    if (!deforms(greens, snapshot, body, i)) continue;
     const int node = snapshot.loadedNodes[i];
     const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
     values.segment<3>(3 * place) +=
@@ -39,7 +51,7 @@ SnapshotDeformation::SnapshotDeformation(std::shared_ptr<const GreensFunctions> 
 }
 
 std::vector<int> SnapshotDeformation::loadedNodes(const ContactSnapshot& snapshot) const {
-  return snapshotTractions(*greens_, snapshot, body_, orientation_, 1).nodes;
+  return nodesUnderForce(*greens_, snapshot, body_);
 }
 
 void SnapshotDeformation::requireNodes(const std::vector<int>& nodes) const {

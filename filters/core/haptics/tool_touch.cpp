@@ -10,8 +10,6 @@
 namespace palpate {
 namespace {
 
-const Wrench kNothing{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-
 std::vector<Obstacle> obstaclesOf(const std::vector<std::shared_ptr<const TouchTool>>& tools,
                                   double friction, const std::vector<ElasticPartner>& partners) {
   std::vector<Obstacle> obstacles;
@@ -44,7 +42,7 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
                settings) {
   if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
   for (const auto& tool : tools) {
-    tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNothing});
+    tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNoWrench});
     poses_.resize(poses_.size() + tool->partCount());
   }
   for (const ElasticPartner& partner : partners) poses_.push_back(partner.pose);
@@ -57,7 +55,7 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
   }
   certificate_ = contact_.step(poses_.data());
   for (int t = 0; t < toolCount(); ++t) {
-    Wrench& sum = tools_[t].wrench = kNothing;
+    Wrench& sum = tools_[t].wrench = kNoWrench;
     for (int part = 0; part < tools_[t].tool->partCount(); ++part) {
       if (!torques_) {
         sum.force += contact_.force(tools_[t].firstPart + part);
@@ -80,7 +78,7 @@ Wrench ToolTouch::partWrench(int tool, int part) const noexcept {
 void ToolTouch::reset() noexcept {
   contact_.reset();
   certificate_ = {};
-  for (Held& held : tools_) held.wrench = kNothing;
+  for (Held& held : tools_) held.wrench = kNoWrench;
 }
 
 void ToolTouch::setFriction(double friction) noexcept {

@@ -19,7 +19,7 @@ struct ToolContact {
   bool touching = false;
   ToolPose pose;
   /// On the tool, about its position.
-  Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Wrench wrench = kNoWrench;
   int triangle = -1;  ///< of a contact at a point
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   Eigen::Vector3d staticPoint = Eigen::Vector3d::Zero();  ///< x^C
