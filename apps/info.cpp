@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <read_surface.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
@@ -14,7 +15,6 @@
 #include "conversion.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/surface_mesh.h"
-#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

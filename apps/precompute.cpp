@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <read_surface.h>
 #include <vtkBoundaryElementGreensFunctions.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -15,7 +16,6 @@
 #include <memory>
 
 #include "commands.h"
-#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <read_surface.h>
 #include <vtkElasticMeshRepair.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -10,7 +11,6 @@
 #include <memory>
 
 #include "commands.h"
-#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <read_surface.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -14,7 +15,6 @@
 
 #include "commands.h"
 #include "picture/picture.h"
-#include "surface_file.h"
 #include "terminal.h"
 
 namespace palpate::app {

@@ -3,6 +3,7 @@
 
 #include "terminal.h"
 
+#include <read_surface.h>
 #include <unistd.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
@@ -29,7 +30,6 @@
 
 #include "picture/picture.h"
 #include "progress_bar.h"
-#include "surface_file.h"
 
 namespace palpate::app {
 namespace {

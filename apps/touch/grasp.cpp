@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <model_arrays.h>
+#include <read_surface.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -24,7 +25,6 @@
 #include "haptics/touch_session.h"
 #include "picture/picture.h"
 #include "picture/virtual_display.h"
-#include "surface_file.h"
 #include "touch/touch_window.h"
 #include "touch/window.h"
 #include "touch_view.h"

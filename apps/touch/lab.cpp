@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <model_arrays.h>
+#include <read_surface.h>
 #include <vtkAxis.h>
 #include <vtkChartLegend.h>
 #include <vtkChartXY.h>
@@ -29,7 +30,6 @@
 #include "picture/png.h"
 #include "picture/virtual_display.h"
 #include "progress_bar.h"
-#include "surface_file.h"
 #include "touch/touch_window.h"
 
 namespace palpate::app {

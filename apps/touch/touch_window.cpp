@@ -3,6 +3,7 @@
 
 #include "touch/touch_window.h"
 
+#include <read_surface.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkInteractorStyleHaptic.h>
@@ -21,7 +22,6 @@
 #include <stdexcept>
 
 #include "picture/virtual_display.h"
-#include "surface_file.h"
 #include "touch/window.h"
 
 namespace palpate::app {

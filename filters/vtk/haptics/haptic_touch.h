@@ -7,12 +7,8 @@
 #include "contact/surface_stiffness.h"
 #include "haptics/scripted_device.h"
 #include "haptics/servo_loop.h"
-#include "haptics/touch_session.h"
+#include "loaded_scene.h"
 #include "mouse_device.h"
-#include "touch_view.h"
-
-#include "vtkNew.h"
-#include "vtkSmartPointer.h"
 
 #include <memory>
 #include <string>
@@ -30,7 +26,7 @@ public:
   HapticTouch();
   ~HapticTouch();
 
-  const palpate::Scene& Scene() const { return this->Described; }
+  const palpate::Scene& Scene() const { return this->Loaded.Described; }
   void SetModel(vtkPolyData* model);
   void LoadScene(const std::string& fileName);
   std::string EvaluationPlan();
@@ -64,12 +60,13 @@ public:
   const Eigen::Matrix3Xd& Displacement(int body) const;
 
   /// The first model as it was given.
-  vtkPolyData* Touched() const { return this->FirstModel; }
-  const std::vector<SceneBody>& Bodies() const { return this->Loaded; }
+  vtkPolyData* Touched() const;
+  const std::vector<SceneBody>& Bodies() const { return this->Loaded.Bodies; }
   /// Under gravity a body's surface has sagged. After Prepare.
   std::shared_ptr<const SurfaceMesh> Mesh(int body) const { return this->Session->mesh(body); }
   const ToolLook& Look(int tool) const { return this->Looks[tool]; }
-  const ServoSnapshot& Snapshot() const { return this->Latest; }
+  /// The newest, until the next Update; empty before the first.
+  const ServoSnapshot& Snapshot() const { return this->Latest ? *this->Latest : this->Nothing; }
   const ToolContact& Contact(int tool) const;
   Wrench Rendered(int tool) const;
   std::string Fault(int tool) const;
@@ -97,13 +94,13 @@ public:
 private:
   void Change();
   std::shared_ptr<HapticDevice> Open(const SceneDevice& device);
-  ToolLook LookOf(const SceneTool& tool, std::shared_ptr<const SurfaceMesh>& mesh) const;
   std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
   double MeanEdge() const;
 
-  palpate::Scene Described;
-  std::vector<SceneBody> Loaded;
-  vtkSmartPointer<vtkPolyData> FirstModel;
+  palpate::Scene& Described() { return this->Loaded.Described; }
+  const palpate::Scene& Described() const { return this->Loaded.Described; }
+
+  LoadedScene Loaded;
   std::string RecordFile;
   std::vector<ToolLook> Looks;
   std::shared_ptr<MouseDevice> Pointer;
@@ -112,7 +109,8 @@ private:
   std::shared_ptr<RecordingDevice> Recorder;
   std::unique_ptr<TouchSession> Session;
   std::unique_ptr<ServoLoop> Loop;
-  ServoSnapshot Latest;
+  const ServoSnapshot* Latest = nullptr; ///< the loop's
+  ServoSnapshot Nothing;
   Eigen::Matrix3Xd None;
   double Largest = 1e-12;
 };

@@ -6,8 +6,6 @@
 #include "conversion.h"
 
 #include "vtkActor.h"
-#include "vtkArrowSource.h"
-#include "vtkCapsuleSource.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -19,11 +17,8 @@
 #include "vtkPolyDataNormals.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkSphereSource.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
-#include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,96 +29,8 @@ namespace
 {
 constexpr double BodyColour[3] = { 0.85, 0.78, 0.7 };
 constexpr double HeldColour[3] = { 0.35, 0.45, 0.7 };
-constexpr double ToolColour[3] = { 0.25, 0.6, 0.3 };
-constexpr double GodObjectColour[3] = { 0.95, 0.75, 0.1 };
 constexpr double ForceColour[3] = { 0.8, 0.15, 0.15 };
-constexpr double ArrowShare = 0.25; ///< of the body's diagonal, at the largest force
-constexpr double BallShare = 0.012; ///< a point's ball
-
-void setMapper(vtkActor* actor, vtkAlgorithmOutput* output)
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(output);
-  mapper->ScalarVisibilityOff();
-  actor->SetMapper(mapper);
-}
-
-void place(vtkTransform* transform, const Eigen::Vector3d& at, const Eigen::Quaterniond& orientation)
-{
-  const Eigen::AngleAxisd turn(orientation);
-  transform->Identity();
-  transform->Translate(at.data());
-  transform->RotateWXYZ(
-    turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
-}
-
-void setColour(vtkActor* actor, const double colour[3])
-{
-  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
-}
 } // namespace
-
-/// VTK's own lies along y around its middle.
-vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length)
-{
-  vtkNew<vtkCapsuleSource> source;
-  source->SetRadius(radius);
-  source->SetCylinderLength(length);
-  source->SetThetaResolution(16);
-  source->SetPhiResolution(8);
-  vtkNew<vtkTransform> place;
-  place->Translate(0, 0, length / 2);
-  place->RotateX(90);
-  vtkNew<vtkTransformPolyDataFilter> moved;
-  moved->SetInputConnection(source->GetOutputPort());
-  moved->SetTransform(place);
-  moved->Update();
-  return moved->GetOutput();
-}
-
-ToolLook lookOf(const HandModel& model)
-{
-  ToolLook look;
-  for (const Capsule& bone : model.capsules({}))
-  {
-    look.Parts.push_back(capsuleSurface(bone.radius, (bone.end - bone.begin).norm()));
-  }
-  look.Place = [model](const ToolPose& pose, RigidPose* poses)
-  {
-    const HandCapsules bones = model.capsules(pose);
-    for (int k = 0; k < kHandCapsuleCount; ++k)
-    {
-      poses[k] = { bones[k].begin,
-        Eigen::Quaterniond::FromTwoVectors(
-          Eigen::Vector3d::UnitZ(), bones[k].end - bones[k].begin) };
-    }
-  };
-  return look;
-}
-
-struct TouchView::DrawnTool
-{
-  struct Part
-  {
-    vtkNew<vtkActor> Actor;
-    vtkNew<vtkTransform> Transform;
-  };
-  std::vector<std::unique_ptr<Part>> Parts;
-  std::function<void(const ToolPose&, RigidPose*)> Place;
-  std::vector<RigidPose> Poses;
-  vtkNew<vtkActor> GodObject, Force;
-  vtkNew<vtkTransform> GodObjectPlace, ForcePlace;
-
-  std::vector<vtkActor*> Actors() const
-  {
-    std::vector<vtkActor*> actors{ this->GodObject, this->Force };
-    for (const auto& part : this->Parts)
-    {
-      actors.push_back(part->Actor);
-    }
-    return actors;
-  }
-};
 
 TouchView::TouchView()
 {
@@ -165,58 +72,14 @@ void TouchView::AddBody(std::shared_ptr<const SurfaceMesh> mesh, const RigidPose
   normals->SetInputData(body->Surface);
   normals->SplittingOff();
   normals->ConsistencyOff();
-  setMapper(body->Actor, normals->GetOutputPort());
+  setSurface(body->Actor, normals->GetOutputPort());
   setColour(body->Actor, this->Bodies.empty() ? BodyColour : HeldColour);
   this->Bodies.push_back(std::move(body));
 }
 
 void TouchView::AddTool(const ToolLook& look)
 {
-  auto tool = std::make_unique<DrawnTool>();
-  vtkNew<vtkSphereSource> ball;
-  ball->SetRadius(BallShare * this->Diagonal());
-  ball->SetThetaResolution(16);
-  ball->SetPhiResolution(12);
-  for (const auto& surface : look.Parts)
-  {
-    auto part = std::make_unique<DrawnTool::Part>();
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(surface);
-    mapper->ScalarVisibilityOff();
-    part->Actor->SetMapper(mapper);
-    part->Actor->GetProperty()->SetOpacity(look.Parts.size() > 1 ? 1 : 0.6); // many layers cost frames
-    tool->Parts.push_back(std::move(part));
-  }
-  tool->Place = look.Place;
-  if (look.Parts.empty())
-  {
-    tool->Parts.push_back(std::make_unique<DrawnTool::Part>());
-    setMapper(tool->Parts[0]->Actor, ball->GetOutputPort());
-    tool->Place = [](const ToolPose& pose, RigidPose* poses)
-    { poses[0] = { pose.position, pose.orientation }; };
-  }
-  tool->Poses.resize(tool->Parts.size());
-  for (const auto& part : tool->Parts)
-  {
-    setColour(part->Actor, ToolColour);
-    part->Actor->SetUserTransform(part->Transform);
-  }
-  setMapper(tool->GodObject, ball->GetOutputPort());
-  vtkNew<vtkArrowSource> arrow;
-  arrow->SetTipResolution(16);
-  arrow->SetShaftResolution(12);
-  setMapper(tool->Force, arrow->GetOutputPort());
-  setColour(tool->GodObject, GodObjectColour);
-  setColour(tool->Force, ForceColour);
-  tool->GodObject->SetUserTransform(tool->GodObjectPlace);
-  tool->Force->SetUserTransform(tool->ForcePlace);
-  tool->GodObject->VisibilityOff();
-  tool->Force->VisibilityOff();
-  for (vtkActor* actor : tool->Actors())
-  {
-    actor->PickableOff();
-  }
-  this->Tools.push_back(std::move(tool));
+  this->Tools.push_back(std::make_unique<DrawnTool>(look, this->Diagonal()));
 }
 
 void TouchView::Clear()
@@ -292,34 +155,6 @@ Eigen::Vector3d TouchView::DeformedPlace(int triangle, const Eigen::Vector3d& ba
   return place;
 }
 
-void TouchView::ShowTool(DrawnTool& tool, const ToolContact& contact, double largestForce)
-{
-  tool.Place(contact.pose, tool.Poses.data());
-  for (std::size_t k = 0; k < tool.Parts.size(); ++k)
-  {
-    place(tool.Parts[k]->Transform, tool.Poses[k].position, tool.Poses[k].orientation);
-  }
-  const bool onSurface = contact.touching && contact.triangle >= 0;
-  Eigen::Vector3d from = contact.staticPoint;
-  if (onSurface)
-  {
-    from = this->DeformedPlace(contact.triangle, contact.barycentric);
-    place(tool.GodObjectPlace, from, Eigen::Quaterniond::Identity());
-  }
-  tool.GodObject->SetVisibility(onSurface);
-  const double force = contact.wrench.force.norm();
-  const bool felt = contact.touching && force > 1e-6 * largestForce;
-  tool.Force->SetVisibility(felt);
-  if (!felt)
-  {
-    return;
-  }
-  const Eigen::Vector3d direction = contact.wrench.force / force;
-  const double length = ArrowShare * this->Diagonal() * std::min(1.0, force / largestForce);
-  place(tool.ForcePlace, from, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction));
-  tool.ForcePlace->Scale(length, length, length);
-}
-
 /// Dots where nodes of the first body bear a force.
 void TouchView::ShowLoads(const ContactSnapshot& contact)
 {
@@ -347,7 +182,11 @@ void TouchView::Show(const ServoSnapshot& snapshot, double largestForce)
 {
   for (std::size_t t = 0; t < this->Tools.size() && t < snapshot.contact.tools.size(); ++t)
   {
-    this->ShowTool(*this->Tools[t], snapshot.contact.tools[t], largestForce);
+    const ToolContact& contact = snapshot.contact.tools[t];
+    const bool onSurface = contact.touching && contact.triangle >= 0;
+    this->Tools[t]->Show(contact,
+      onSurface ? this->DeformedPlace(contact.triangle, contact.barycentric) : contact.staticPoint,
+      largestForce);
   }
   this->ShowLoads(snapshot.contact);
 }

@@ -5,7 +5,7 @@
 #define palpate_touch_view_h
 
 #include "contact/rigid_shape.h"
-#include "haptics/hand_model.h"
+#include "drawn_tool.h"
 #include "haptics/servo_report.h"
 #include "mesh/surface_mesh.h"
 
@@ -13,7 +13,6 @@
 #include "vtkSmartPointer.h"
 
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,7 +23,6 @@ class vtkPolyData;
 class vtkPoints;
 class vtkRenderer;
 class vtkTextActor;
-class vtkTransform;
 
 namespace palpate
 {
@@ -37,18 +35,6 @@ struct DrawnBody
   vtkNew<vtkPoints> Points;
   vtkNew<vtkActor> Actor;
 };
-
-/// How a tool is drawn: parts, each in its own frame, and where they are at a pose.
-struct ToolLook
-{
-  std::vector<vtkSmartPointer<vtkPolyData>> Parts; ///< none for a point
-  std::function<void(const ToolPose&, RigidPose*)> Place;
-};
-
-/// A capsule for each bone of a hand.
-ToolLook lookOf(const HandModel& hand);
-/// VTK's capsule, along z from the origin.
-vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length);
 
 /// What a window shows of a touch: bodies, the tools, their god-objects, the forces on the hand as arrows,
 /// the nodes under a force as dots, a status line.
@@ -84,9 +70,7 @@ public:
   double Diagonal() const;
 
 private:
-  struct DrawnTool;
   void AddProps(vtkRenderer* renderer);
-  void ShowTool(DrawnTool& tool, const ToolContact& contact, double largestForce);
   void ShowLoads(const ContactSnapshot& contact);
 
   std::vector<std::unique_ptr<DrawnBody>> Bodies;

@@ -1,21 +1,23 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#pragma once
+#ifndef palpate_read_surface_h
+#define palpate_read_surface_h
 
-#include <vtkSmartPointer.h>
+#include "vtkSmartPointer.h"
 
 #include <string>
 
 class vtkObject;
 class vtkPolyData;
 
-namespace palpate::app {
-
+namespace palpate
+{
 /// Keeps an object from printing its errors: what goes wrong is thrown.
 void silence(vtkObject* object);
 
-/// @throws std::runtime_error with the reader's sentence.
+/// @throws std::runtime_error with vtkElasticSurfaceReader's sentence.
 vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
+} // namespace palpate
 
-}  // namespace palpate::app
+#endif

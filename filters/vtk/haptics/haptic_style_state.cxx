@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptic_style_touch.h"
+
+#include "vtkDoubleArray.h"
+
+#include <algorithm>
+
+// What the style tells of its touch.
+
+int vtkInteractorStyleHaptic::GetNumberOfTools()
+{
+  return static_cast<int>(this->Internals->Session.Scene().tools.size());
+}
+
+bool vtkInteractorStyleHaptic::IsTouching(int tool)
+{
+  return this->Internals->Session.Contact(tool).touching;
+}
+
+bool vtkInteractorStyleHaptic::IsSliding(int tool)
+{
+  return this->Internals->Session.Contact(tool).sliding;
+}
+
+void vtkInteractorStyleHaptic::GetForce(int tool, double force[3])
+{
+  std::copy_n(this->Internals->Session.Contact(tool).wrench.force.data(), 3, force);
+}
+
+void vtkInteractorStyleHaptic::GetTorque(int tool, double torque[3])
+{
+  std::copy_n(this->Internals->Session.Contact(tool).wrench.torque.data(), 3, torque);
+}
+
+void vtkInteractorStyleHaptic::GetRenderedForce(int tool, double force[3])
+{
+  std::copy_n(this->Internals->Session.Rendered(tool).force.data(), 3, force);
+}
+
+void vtkInteractorStyleHaptic::GetToolPosition(int tool, double position[3])
+{
+  std::copy_n(this->Internals->Session.Contact(tool).pose.position.data(), 3, position);
+}
+
+void vtkInteractorStyleHaptic::GetContactPoint(int tool, double point[3])
+{
+  std::copy_n(this->Internals->Session.Contact(tool).staticPoint.data(), 3, point);
+}
+
+std::string vtkInteractorStyleHaptic::GetFault(int tool)
+{
+  return this->Internals->Session.Fault(tool);
+}
+
+double vtkInteractorStyleHaptic::GetResidual()
+{
+  return this->Internals->Session.Snapshot().contact.certificate.residual;
+}
+
+int vtkInteractorStyleHaptic::GetNumberOfContacts()
+{
+  return this->Internals->Session.Snapshot().contact.certificate.contactCount;
+}
+
+vtkIdType vtkInteractorStyleHaptic::GetNumberOfTicks()
+{
+  return this->Internals->Session.Ticks();
+}
+
+vtkIdType vtkInteractorStyleHaptic::GetNumberOfMissedTicks()
+{
+  return this->Internals->Session.MissedTicks();
+}
+
+double vtkInteractorStyleHaptic::GetTickTime(double share)
+{
+  return this->Internals->Session.TickTime(share);
+}
+
+std::string vtkInteractorStyleHaptic::GetTimingTable()
+{
+  return this->Internals->Session.TimingTable();
+}
+
+vtkPolyData* vtkInteractorStyleHaptic::GetTouchedModel()
+{
+  return this->Internals->Session.Touched();
+}
+
+vtkPolyData* vtkInteractorStyleHaptic::GetDeformedSurface(int body)
+{
+  const bool there =
+    this->Internals->Shown && body >= 0 && body < this->Internals->View.NumberOfBodies();
+  return there ? this->Internals->View.Surface(body) : nullptr;
+}
+
+void vtkInteractorStyleHaptic::GetForceTrace(vtkDoubleArray* trace)
+{
+  const auto wrenches = this->Internals->Session.ForceTrace();
+  trace->SetNumberOfComponents(6);
+  trace->SetNumberOfTuples(static_cast<vtkIdType>(wrenches.size()));
+  for (std::size_t i = 0; i < wrenches.size(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      trace->SetComponent(i, c, wrenches[i].force[c]);
+      trace->SetComponent(i, 3 + c, wrenches[i].torque[c]);
+    }
+  }
+}
+
+std::string vtkInteractorStyleHaptic::GetStatus()
+{
+  return this->Internals->Session.Status();
+}

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptic_touch.h"
+
+#include "haptics/point_touch.h"
+#include "haptics/tool_touch.h"
+
+#include <cmath>
+#include <stdexcept>
+
+// What takes effect at once.
+namespace palpate
+{
+void HapticTouch::SetFriction(double mu)
+{
+  if (!(mu >= 0) || !std::isfinite(mu))
+  {
+    throw std::invalid_argument("friction must not be negative, as " + std::to_string(mu) + " is");
+  }
+  this->Described().effects.friction = mu;
+  if (!this->Session)
+  {
+    return;
+  }
+  if (auto* points = dynamic_cast<PointTouch*>(this->Session->model().get()))
+  {
+    points->setFriction(mu);
+  }
+  else
+  {
+    this->Loop->post(
+      [mu](TouchModel& model) noexcept { static_cast<ToolTouch&>(model).setFriction(mu); });
+  }
+}
+
+std::shared_ptr<const SurfaceStiffness> HapticTouch::NewStiffness() const
+{
+  const SceneEffects& effects = this->Described().effects;
+  const double modulus = this->Loaded.Bodies[0].greens->info().material.youngsModulus();
+  return std::make_shared<const SurfaceStiffness>(
+    this->Loaded.Bodies[0].greens->withYoungsModulus(modulus * effects.stiffnessScale),
+    this->Loaded.Bodies[0].mesh, effects.maskShape, this->MaskRadius(), effects.stiffnessLimit);
+}
+
+void HapticTouch::SetMaskRadius(double radius)
+{
+  if (!(radius >= 0) || !std::isfinite(radius))
+  {
+    throw std::invalid_argument(
+      "the radius of a mask must not be negative, as " + std::to_string(radius) + " is");
+  }
+  this->Described().effects.maskRadius = radius;
+  this->Described().effects.maskRadiusEdges = 0;
+  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
+  {
+    points->setStiffness(this->NewStiffness());
+  }
+}
+
+void HapticTouch::SetStiffnessScale(double scale)
+{
+  if (!(scale > 0) || !std::isfinite(scale))
+  {
+    throw std::invalid_argument("a stiffness scale must be positive, not " + std::to_string(scale));
+  }
+  this->Described().effects.stiffnessScale = scale;
+  if (!this->Session)
+  {
+    return;
+  }
+  this->Session->setStiffnessScale(scale);
+  if (auto* points = dynamic_cast<PointTouch*>(this->Session->model().get()))
+  {
+    const double modulus = this->Loaded.Bodies[0].greens->info().material.youngsModulus();
+    points->setStiffness(points->stiffness()->withYoungsModulus(modulus * scale));
+  }
+  else
+  {
+    this->Loop->post([scale](TouchModel& model) noexcept
+      { static_cast<ToolTouch&>(model).setStiffnessScale(scale); });
+  }
+}
+
+void HapticTouch::SetRigidStiffness(double stiffness)
+{
+  if (!(stiffness >= 0) || !std::isfinite(stiffness))
+  {
+    throw std::invalid_argument(
+      "the rigid stiffness must not be negative, as " + std::to_string(stiffness) + " is");
+  }
+  this->Described().effects.stiffnessLimit = stiffness;
+  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
+  {
+    points->setStiffness(points->stiffness()->withRigidStiffness(stiffness));
+  }
+}
+
+double HapticTouch::MeanEdge() const
+{
+  return this->Loaded.Bodies.empty() ? 0 : this->Loaded.Bodies[0].mesh->meanEdgeLength();
+}
+
+double HapticTouch::MaskRadius() const
+{
+  const SceneEffects& effects = this->Described().effects;
+  return effects.maskRadiusEdges > 0 ? effects.maskRadiusEdges * this->MeanEdge()
+                                     : effects.maskRadius;
+}
+
+Eigen::VectorXd HapticTouch::StiffnessNorms() const
+{
+  const SurfaceStiffness stiffness(this->Loaded.Bodies[0].greens, this->Loaded.Bodies[0].mesh,
+    this->Described().effects.maskShape, this->MaskRadius(), this->Described().effects.stiffnessLimit);
+  Eigen::VectorXd norms(this->Loaded.Bodies[0].mesh->vertexCount());
+  for (int v = 0; v < norms.size(); ++v)
+  {
+    norms[v] = this->Loaded.Bodies[0].greens->isFixed(v) ? NAN : stiffness.haptic(v).norm();
+  }
+  return norms;
+}
+} // namespace palpate

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "haptic_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+// What the newest snapshot and the loop's counts say.
+namespace palpate
+{
+namespace
+{
+std::string text(const char* format, double value)
+{
+  char line[64];
+  std::snprintf(line, sizeof line, format, value);
+  return line;
+}
+
+/// With the prefix of thousands that leaves one to three digits before the point.
+std::string engineering(double value, const char* unit)
+{
+  static const char* const prefixes[] = { "p", "n", "u", "m", "", "k", "M", "G" };
+  int exponent = value > 0 ? static_cast<int>(std::floor(std::log10(value) / 3)) : 0;
+  exponent = std::clamp(exponent, -4, 3);
+  return text("%.3g ", value * std::pow(1000.0, -exponent)) + prefixes[exponent + 4] + unit;
+}
+} // namespace
+
+const ToolContact& HapticTouch::Contact(int tool) const
+{
+  static const ToolContact nothing;
+  const auto& tools = this->Snapshot().contact.tools;
+  return tool >= 0 && tool < static_cast<int>(tools.size()) ? tools[tool] : nothing;
+}
+
+Wrench HapticTouch::Rendered(int tool) const
+{
+  const auto& tools = this->Snapshot().tools;
+  return tool >= 0 && tool < static_cast<int>(tools.size())
+    ? tools[tool].rendered
+    : kNoWrench;
+}
+
+std::string HapticTouch::Fault(int tool) const
+{
+  const auto& tools = this->Snapshot().tools;
+  const bool there = tool >= 0 && tool < static_cast<int>(tools.size());
+  return there && tools[tool].safety.fault != palpate::Fault::None
+    ? palpate::describe(tools[tool].safety.fault)
+    : "";
+}
+
+std::string HapticTouch::Status() const
+{
+  if (this->Snapshot().contact.tools.empty())
+  {
+    return "";
+  }
+  const SceneEffects& effects = this->Described().effects;
+  std::string line = text("%.0f Hz", this->Described().servo.rate) + "  p99 " +
+    engineering(this->TickTime(0.99), "s");
+  for (std::size_t t = 0; t < this->Snapshot().contact.tools.size(); ++t)
+  {
+    const ToolContact& contact = this->Snapshot().contact.tools[t];
+    line += "  " + engineering(contact.wrench.force.norm(), "N");
+    line += contact.touching ? contact.sliding ? " slides" : " sticks" : " free";
+    const std::string fault = this->Fault(static_cast<int>(t));
+    line += fault.empty() ? "" : " (" + fault + ")";
+  }
+  const ContactCertificate& certificate = this->Snapshot().contact.certificate;
+  line += "  residual " + text("%.0e", certificate.residual) + (certificate.budgetCut ? " cut" : "");
+  line += "  mu " + text("%.2g", effects.friction);
+  if (this->Described().isOfPoints())
+  {
+    line += "  mask " + engineering(this->MaskRadius(), "m");
+  }
+  return line + "  x" + text("%.2g", effects.stiffnessScale);
+}
+
+std::int64_t HapticTouch::Ticks() const
+{
+  return this->Loop ? this->Loop->statistics().ticks.load() : 0;
+}
+
+std::int64_t HapticTouch::MissedTicks() const
+{
+  return this->Loop ? this->Loop->statistics().missedTicks.load() : 0;
+}
+
+double HapticTouch::TickTime(double share) const
+{
+  return this->Loop ? this->Loop->statistics().compute.quantile(share) : 0;
+}
+
+std::string HapticTouch::TimingTable() const
+{
+  return this->Loop ? this->Loop->statistics().table() : "";
+}
+
+std::vector<Wrench> HapticTouch::ForceTrace() const
+{
+  if (!this->FirstScript || this->IsRunning())
+  {
+    return {};
+  }
+  std::vector<Wrench> wrenches = this->FirstScript->wrenches();
+  wrenches.resize(this->FirstScript->momentsRead());
+  return wrenches;
+}
+} // namespace palpate

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "placed_actor.h"
+
+#include "vtkActor.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkTransform.h"
+
+namespace palpate
+{
+void setSurface(vtkActor* actor, vtkAlgorithmOutput* surface)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(surface);
+  mapper->ScalarVisibilityOff();
+  actor->SetMapper(mapper);
+}
+
+void setColour(vtkActor* actor, const double colour[3])
+{
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+}
+
+PlacedActor::PlacedActor(const double colour[3])
+{
+  setColour(this->Drawn, colour);
+  this->Drawn->SetUserTransform(this->Transform);
+  this->Drawn->PickableOff();
+}
+
+PlacedActor::~PlacedActor() = default;
+
+void PlacedActor::SetSurface(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->ScalarVisibilityOff();
+  this->Drawn->SetMapper(mapper);
+}
+
+void PlacedActor::MoveTo(
+  const Eigen::Vector3d& place, const Eigen::Quaterniond& orientation, double scale)
+{
+  const Eigen::AngleAxisd turn(orientation);
+  this->Transform->Identity();
+  this->Transform->Translate(place.data());
+  this->Transform->RotateWXYZ(
+    turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
+  this->Transform->Scale(scale, scale, scale);
+}
+} // namespace palpate
