@@ -51,6 +51,14 @@ struct Capsule {
 constexpr int kHandCapsuleCount = 19;
 using HandCapsules = std::array<Capsule, kHandCapsuleCount>;
 
+/// Bones whose forces are felt as one.
+struct HandFinger {
+  const char* name;
+  int firstBone, boneCount;
+};
+constexpr HandFinger kHandFingers[] = {{"thumb", 0, 3}, {"index", 3, 3},   {"middle", 6, 3},
+                                       {"ring", 9, 3},  {"little", 12, 3}, {"palm", 15, 4}};
+
 /// Where the bones are: each begins at its own origin and runs along -z, and turns with its joints.
 using HandBonePoses = std::array<RigidPose, kHandCapsuleCount>;
 

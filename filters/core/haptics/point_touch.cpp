@@ -92,6 +92,7 @@ ContactSnapshot PointTouch::makeSnapshot() const {
   snapshot.tools.resize(tools_.size());
   snapshot.loadedBodies.resize(slotOfNode_.size(), 0);
   snapshot.loadedNodes.resize(slotOfNode_.size());
+  snapshot.loadedParts.resize(slotOfNode_.size(), -1);
   snapshot.loads.resize(slotOfNode_.size());
   return snapshot;
 }

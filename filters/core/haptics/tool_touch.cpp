@@ -97,6 +97,7 @@ ContactSnapshot ToolTouch::makeSnapshot() const {
   const std::size_t loads = 4 * std::size_t(contact_.capacity());
   snapshot.loadedBodies.resize(loads);
   snapshot.loadedNodes.resize(loads);
+  snapshot.loadedParts.resize(loads);
   snapshot.loads.resize(loads, Eigen::Vector3d::Zero());
   return snapshot;
 }
@@ -109,6 +110,7 @@ void ToolTouch::fill(ContactSnapshot& snapshot) const noexcept {
     seen.hapticPoint = tools_[t].pose.position;
     seen.wrench = tools_[t].wrench;
   }
+  const int parts = tools_.back().firstPart + tools_.back().tool->partCount();
   std::size_t loads = 0;
   for (int i = 0; i < contact_.watchedCount(); ++i) {
     const UnilateralContact::Watched watched = contact_.watched(i);
@@ -117,6 +119,7 @@ void ToolTouch::fill(ContactSnapshot& snapshot) const noexcept {
     for (int p = 0; p < site.count; ++p, ++loads) {
       snapshot.loadedBodies[loads] = site.parts[p].body;
       snapshot.loadedNodes[loads] = site.parts[p].node;
+      snapshot.loadedParts[loads] = watched.obstacle < parts ? watched.obstacle : -1;
       snapshot.loads[loads] = site.parts[p].weight * watched.force;
     }
   }

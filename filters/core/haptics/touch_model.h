@@ -34,9 +34,11 @@ struct ContactSnapshot {
   std::uint64_t tick = 0;
   std::vector<ToolContact> tools;
   ContactCertificate certificate;
-  int loadedCount = 0;                 ///< of the entries below that hold
-  std::vector<int> loadedBodies;       ///< which elastic body: 0, or another that meets the first
-  std::vector<int> loadedNodes;        ///< its node
+  int loadedCount = 0;            ///< of the entries below that hold
+  std::vector<int> loadedBodies;  ///< which elastic body: 0, or another that meets the first
+  std::vector<int> loadedNodes;   ///< its node
+  /// What presses there: a part of a tool, numbered through all tools; -1: a point, another body.
+  std::vector<int> loadedParts;
   std::vector<Eigen::Vector3d> loads;  ///< on the body, N
 };
 

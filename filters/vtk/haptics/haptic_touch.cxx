@@ -40,7 +40,6 @@ void HapticTouch::Change()
   this->FirstScript.reset();
   this->Recorder.reset();
   this->Latest = nullptr;
-  this->Largest = 1e-12;
 }
 
 void HapticTouch::SetModel(vtkPolyData* model)
@@ -246,10 +245,6 @@ bool HapticTouch::Update()
   }
   this->Loop->update();
   this->Latest = &this->Loop->latest();
-  for (const ToolContact& contact : this->Latest->contact.tools)
-  {
-    this->Largest = std::max(this->Largest, contact.wrench.force.norm());
-  }
   return !this->Latest->contact.tools.empty();
 }
 

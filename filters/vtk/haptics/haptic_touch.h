@@ -74,8 +74,6 @@ public:
   double MaskRadius() const;
   /// Of the vertices of the first body, N/m; NaN where there is none.
   Eigen::VectorXd StiffnessNorms() const;
-  /// The largest force so far, N.
-  double LargestForce() const { return this->Largest; }
 
   std::int64_t Ticks() const;
   std::int64_t MissedTicks() const;
@@ -112,7 +110,6 @@ private:
   const ServoSnapshot* Latest = nullptr; ///< the loop's
   ServoSnapshot Nothing;
   Eigen::Matrix3Xd None;
-  double Largest = 1e-12;
 };
 } // namespace palpate
 

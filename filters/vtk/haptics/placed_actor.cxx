@@ -41,14 +41,14 @@ void PlacedActor::SetSurface(vtkPolyData* surface)
   this->Drawn->SetMapper(mapper);
 }
 
-void PlacedActor::MoveTo(
-  const Eigen::Vector3d& place, const Eigen::Quaterniond& orientation, double scale)
+void PlacedActor::MoveTo(const Eigen::Vector3d& place, const Eigen::Quaterniond& orientation,
+  const Eigen::Vector3d& scale)
 {
   const Eigen::AngleAxisd turn(orientation);
   this->Transform->Identity();
   this->Transform->Translate(place.data());
   this->Transform->RotateWXYZ(
     turn.angle() * 180 / EIGEN_PI, turn.axis().x(), turn.axis().y(), turn.axis().z());
-  this->Transform->Scale(scale, scale, scale);
+  this->Transform->Scale(scale.data());
 }
 } // namespace palpate

@@ -27,7 +27,8 @@ public:
   ~PlacedActor();
   void SetSurface(vtkPolyData* surface);
   void MoveTo(const Eigen::Vector3d& place,
-    const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity(), double scale = 1);
+    const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity(),
+    const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
   vtkActor* Actor() const { return this->Drawn; }
 
 private:

@@ -11,6 +11,8 @@
 #include "vtkTransform.h"
 #include "vtkTransformPolyDataFilter.h"
 
+#include <iterator>
+
 namespace palpate
 {
 namespace
@@ -55,8 +57,9 @@ vtkSmartPointer<vtkPolyData> capsuleSurface(double radius, double length)
 
 ToolLook rigid(vtkSmartPointer<vtkPolyData> surface)
 {
-  return { { std::move(surface) }, [](const ToolPose& pose, RigidPose* poses)
-    { poses[0] = { pose.position, pose.orientation }; } };
+  return { { std::move(surface) },
+    [](const ToolPose& pose, RigidPose* poses) { poses[0] = { pose.position, pose.orientation }; },
+    { 0 }, {} };
 }
 } // namespace
 
@@ -66,6 +69,11 @@ ToolLook lookOf(const HandModel& model)
   for (const Capsule& bone : model.capsules({}))
   {
     look.Parts.push_back(capsuleSurface(bone.radius, (bone.end - bone.begin).norm()));
+  }
+  for (int finger = 0; finger < static_cast<int>(std::size(kHandFingers)); ++finger)
+  {
+    look.Names.push_back(kHandFingers[finger].name);
+    look.Felt.insert(look.Felt.end(), kHandFingers[finger].boneCount, finger);
   }
   look.Place = [model](const ToolPose& pose, RigidPose* poses)
   {

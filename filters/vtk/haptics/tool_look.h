@@ -11,6 +11,7 @@
 #include "vtkSmartPointer.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -22,6 +23,8 @@ struct ToolLook
 {
   std::vector<vtkSmartPointer<vtkPolyData>> Parts; ///< none for a point
   std::function<void(const ToolPose&, RigidPose*)> Place;
+  std::vector<int> Felt; ///< a part: which of the tool's arrows its force belongs to
+  std::vector<std::string> Names; ///< of those forces; none if there is but one
 };
 
 /// A capsule for each bone of a hand.

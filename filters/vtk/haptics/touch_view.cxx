@@ -4,6 +4,7 @@
 #include "touch_view.h"
 
 #include "conversion.h"
+#include "mark_colours.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -16,6 +17,7 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkPolyDataNormals.h"
 #include "vtkProperty.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
@@ -28,8 +30,8 @@ namespace palpate
 namespace
 {
 constexpr double BodyColour[3] = { 0.85, 0.78, 0.7 };
+constexpr double ScaleFading = 0.98; ///< of the arrows' scale, a frame
 constexpr double HeldColour[3] = { 0.35, 0.45, 0.7 };
-constexpr double ForceColour[3] = { 0.8, 0.15, 0.15 };
 } // namespace
 
 TouchView::TouchView()
@@ -45,6 +47,20 @@ TouchView::TouchView()
   this->Status->GetTextProperty()->SetFontSize(14);
   this->Status->GetTextProperty()->SetFontFamilyToCourier();
   this->Status->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  this->Above->InteractiveOff();
+  const std::pair<const char*, const double*> legend[] = {
+    { "x^H  the probe", ProbeColour },
+    { "x^E  the contact on the deformed surface", GodObjectColour },
+    { "x^C  the contact on the undeformed surface", StaticColour } };
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Legend[i]->SetInput(legend[i].first);
+    this->Legend[i]->SetPosition(10, 30 + 18 * i);
+    this->Legend[i]->GetTextProperty()->SetFontSize(14);
+    this->Legend[i]->GetTextProperty()->SetBold(true);
+    this->Legend[i]->GetTextProperty()->SetColor(
+      legend[i].second[0], legend[i].second[1], legend[i].second[2]);
+  }
 }
 
 TouchView::~TouchView()
@@ -89,10 +105,22 @@ void TouchView::Clear()
   this->Bodies.clear();
   this->Tools.clear();
   this->Loads->Initialize();
+  this->Largest = 1e-12;
   this->Renderer = renderer;
 }
 
 void TouchView::SetRenderer(vtkRenderer* renderer)
+{
+  this->RemoveProps();
+  this->Renderer = renderer;
+  if (renderer)
+  {
+    this->AddProps();
+    this->AddMarks();
+  }
+}
+
+void TouchView::RemoveProps()
 {
   if (this->Renderer)
   {
@@ -107,31 +135,58 @@ void TouchView::SetRenderer(vtkRenderer* renderer)
         this->Renderer->RemoveActor(actor);
       }
     }
-    this->Renderer->RemoveActor(this->LoadsActor);
     this->Renderer->RemoveActor2D(this->Status);
   }
-  this->Renderer = renderer;
-  if (renderer)
+  this->Above->RemoveAllViewProps();
+  if (this->Window)
   {
-    this->AddProps(renderer);
+    this->Window->RemoveRenderer(this->Above);
   }
 }
 
-void TouchView::AddProps(vtkRenderer* renderer)
+void TouchView::AddProps()
 {
   for (const auto& body : this->Bodies)
   {
-    renderer->AddActor(body->Actor);
+    this->Renderer->AddActor(body->Actor);
   }
   for (const auto& tool : this->Tools)
   {
     for (vtkActor* actor : tool->Actors())
     {
-      renderer->AddActor(actor);
+      this->Renderer->AddActor(actor);
     }
   }
-  renderer->AddActor(this->LoadsActor);
-  renderer->AddActor2D(this->Status);
+  this->Renderer->AddActor2D(this->Status);
+}
+
+/// In a layer of the window of its own, with the same camera.
+void TouchView::AddMarks()
+{
+  bool points = false;
+  this->Above->AddActor(this->LoadsActor);
+  for (const auto& tool : this->Tools)
+  {
+    points = points || tool->IsPoint();
+    for (vtkProp* mark : tool->Marks())
+    {
+      this->Above->AddViewProp(mark);
+    }
+  }
+  for (vtkTextActor* line : this->Legend)
+  {
+    line->SetVisibility(points);
+    this->Above->AddActor2D(line);
+  }
+  this->Window = this->Renderer->GetRenderWindow();
+  if (this->Window)
+  {
+    this->Window->SetNumberOfLayers(std::max(2, this->Window->GetNumberOfLayers()));
+    this->Above->SetLayer(this->Window->GetNumberOfLayers() - 1);
+    this->Above->SetViewport(this->Renderer->GetViewport());
+    this->Above->SetActiveCamera(this->Renderer->GetActiveCamera());
+    this->Window->AddRenderer(this->Above);
+  }
 }
 
 void TouchView::Deform(int body, const Eigen::Matrix3Xd& displacement)
@@ -178,17 +233,63 @@ void TouchView::ShowLoads(const ContactSnapshot& contact)
   this->Loads->SetVerts(dots);
 }
 
-void TouchView::Show(const ServoSnapshot& snapshot, double largestForce)
+/// What a point feels acts on its god-object; of a tool with a shape, what its loads tell.
+void TouchView::ShowForces(const ContactSnapshot& contact)
+{
+  int firstPart = 0;
+  this->Largest = std::max(1e-12, ScaleFading * this->Largest);
+  for (std::size_t t = 0; t < this->Tools.size() && t < contact.tools.size(); ++t)
+  {
+    DrawnTool& tool = *this->Tools[t];
+    const int parts = static_cast<int>(tool.Felt().size());
+    this->Forces.assign(tool.ForceCount(), DrawnForce());
+    std::vector<double> weights(tool.ForceCount(), 1e-300);
+    if (tool.IsPoint() && contact.tools[t].touching)
+    {
+      const ToolContact& point = contact.tools[t];
+      this->Forces[0] = { this->DeformedPlace(point.triangle, point.barycentric),
+        point.wrench.force };
+    }
+    for (int i = 0; i < contact.loadedCount; ++i)
+    {
+      const int part = contact.loadedParts[i] - firstPart;
+      if (part < 0 || part >= parts || contact.loadedBodies[i] != 0)
+      {
+        continue;
+      }
+      Eigen::Vector3d place;
+      this->Bodies[0]->Points->GetPoint(contact.loadedNodes[i], place.data());
+      const double weight = contact.loads[i].norm();
+      DrawnForce& force = this->Forces[tool.Felt()[part]];
+      double& sum = weights[tool.Felt()[part]];
+      sum += weight;
+      force.Place += weight / sum * (place - force.Place);
+      force.Force -= contact.loads[i];
+    }
+    for (const DrawnForce& force : this->Forces)
+    {
+      this->Largest = std::max(this->Largest, force.Force.norm());
+    }
+    tool.ShowForces(this->Forces, this->Largest);
+    firstPart += parts;
+  }
+}
+
+void TouchView::Show(const ServoSnapshot& snapshot)
 {
   for (std::size_t t = 0; t < this->Tools.size() && t < snapshot.contact.tools.size(); ++t)
   {
     const ToolContact& contact = snapshot.contact.tools[t];
     const bool onSurface = contact.touching && contact.triangle >= 0;
     this->Tools[t]->Show(contact,
-      onSurface ? this->DeformedPlace(contact.triangle, contact.barycentric) : contact.staticPoint,
-      largestForce);
+      onSurface ? this->DeformedPlace(contact.triangle, contact.barycentric) : contact.staticPoint);
   }
+  this->ShowForces(snapshot.contact);
   this->ShowLoads(snapshot.contact);
+  if (this->Window && this->Above->GetActiveCamera() != this->Renderer->GetActiveCamera())
+  {
+    this->Above->SetActiveCamera(this->Renderer->GetActiveCamera());
+  }
 }
 
 void TouchView::SetStatus(const std::string& text)
@@ -235,6 +336,15 @@ void TouchView::SetWireframe(bool wireframe)
     wireframe ? body->Actor->GetProperty()->SetRepresentationToWireframe()
               : body->Actor->GetProperty()->SetRepresentationToSurface();
   }
+}
+
+void TouchView::Explain(const ServoSnapshot& snapshot)
+{
+  for (const auto& tool : this->Tools)
+  {
+    tool->Explain();
+  }
+  this->Show(snapshot);
 }
 
 std::vector<int> TouchView::FacingNodes(int body, vtkCamera* camera) const

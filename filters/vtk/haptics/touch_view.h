@@ -11,8 +11,10 @@
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@ class vtkActor;
 class vtkCamera;
 class vtkPolyData;
 class vtkPoints;
+class vtkRenderWindow;
 class vtkRenderer;
 class vtkTextActor;
 
@@ -36,8 +39,9 @@ struct DrawnBody
   vtkNew<vtkActor> Actor;
 };
 
-/// What a window shows of a touch: bodies, the tools, their god-objects, the forces on the hand as arrows,
-/// the nodes under a force as dots, a status line.
+/// What a window shows of a touch: bodies, the tools, the nodes under a force as dots, a status line; and, seen
+/// through the surface, a point's places and the forces on the hands as arrows, a finger each, all on one
+/// scale.
 class TouchView
 {
 public:
@@ -53,13 +57,16 @@ public:
 
   /// @param displacement  3 by #nodes, in the scene's frame.
   void Deform(int body, const Eigen::Matrix3Xd& displacement);
-  /// @param largestForce  N, of an arrow as long as a quarter of the body.
-  void Show(const ServoSnapshot& snapshot, double largestForce);
+  /// The largest force shown so far has the longest arrow.
+  void Show(const ServoSnapshot& snapshot);
+  double LargestForce() const { return this->Largest; }
   void SetStatus(const std::string& text);
 
   /// Colours a body by a number a vertex; none for an empty vector.
   void ColourBy(int body, const Eigen::VectorXd& values);
   void SetWireframe(bool wireframe);
+  /// For a picture: tools of glass, forces with their names and sizes.
+  void Explain(const ServoSnapshot& snapshot);
 
   /// Vertices whose normals face the camera.
   std::vector<int> FacingNodes(int body, vtkCamera* camera) const;
@@ -70,7 +77,10 @@ public:
   double Diagonal() const;
 
 private:
-  void AddProps(vtkRenderer* renderer);
+  void AddProps();
+  void AddMarks();
+  void RemoveProps();
+  void ShowForces(const ContactSnapshot& contact);
   void ShowLoads(const ContactSnapshot& contact);
 
   std::vector<std::unique_ptr<DrawnBody>> Bodies;
@@ -78,7 +88,12 @@ private:
   vtkNew<vtkPolyData> Loads;
   vtkNew<vtkActor> LoadsActor;
   vtkNew<vtkTextActor> Status;
+  std::array<vtkNew<vtkTextActor>, 3> Legend; ///< of a point's marks
   vtkSmartPointer<vtkRenderer> Renderer;
+  vtkNew<vtkRenderer> Above; ///< of the marks, which no surface hides
+  vtkWeakPointer<vtkRenderWindow> Window;
+  std::vector<DrawnForce> Forces; ///< for a tool at a time
+  double Largest = 1e-12;
 };
 } // namespace palpate
 

@@ -317,7 +317,7 @@ void vtkInteractorStyleHaptic::Update()
   {
     touch.View.Deform(body, touch.Session.Displacement(body));
   }
-  touch.View.Show(touch.Session.Snapshot(), touch.Session.LargestForce());
+  touch.View.Show(touch.Session.Snapshot());
   touch.View.SetStatus(touch.Session.Status());
   this->Announce();
 }

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "haptics/device_recording.h"
+#include "haptics/hand_model.h"
+#include "haptics/touch_session.h"
+
+namespace palpate::app {
+
+/// From which side a hand comes to a body.
+struct GraspApproach {
+  Eigen::Vector3d from;     ///< the way that the back of the hand looks, an axis
+  Eigen::Vector3d fingers;  ///< the way that they point, an axis: the body's longer one
+  double extent;            ///< of the body along it, m
+};
+/// @param freeSide  the way that the free part of the surface looks.
+GraspApproach approachTo(const SceneBody& body, const Eigen::Vector3d& freeSide);
+
+constexpr double kMomentsASecond = 250;  ///< of the motion below
+
+/// A hand that comes down on a body, closes around it, lets go and grasps it again five times, rubs
+/// it and holds it: four seconds at the pace of hands. How far each joint closes follows from the
+/// body's shape.
+DeviceRecording graspMotion(const SceneBody& body, const GraspApproach& approach,
+                            const HandModel& hand);
+
+}  // namespace palpate::app
