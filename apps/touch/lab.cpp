@@ -14,6 +14,7 @@
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "haptics/stability_lab.h"
@@ -77,6 +79,21 @@ vtkSmartPointer<vtkTable> tableOf(const Series& series) {
   table->AddColumn(stable);
   table->AddColumn(bound);
   return table;
+}
+
+/// Labels at the rates that were tried, on a logarithmic axis.
+void labelRates(vtkAxis* axis, const std::vector<ZWidthPoint>& points) {
+  std::set<double> rates;
+  for (const ZWidthPoint& point : points) rates.insert(point.rate);
+  vtkNew<vtkDoubleArray> places;
+  vtkNew<vtkStringArray> labels;
+  for (double rate : rates) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", rate);
+    places->InsertNextValue(std::log10(rate));
+    labels->InsertNextValue(text);
+  }
+  axis->SetCustomTickPositions(places, labels);
 }
 
 void draw(const std::vector<ZWidthPoint>& points, double own, const std::string& path) {
@@ -139,6 +156,7 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
     chart->GetAxis(axis)->SetBehavior(vtkAxis::FIXED);
   }
   chart->GetAxis(vtkAxis::BOTTOM)->SetUnscaledRange(first / 1.1, last * 1.1);
+  labelRates(chart->GetAxis(vtkAxis::BOTTOM), points);
   chart->GetAxis(vtkAxis::LEFT)->SetUnscaledRange(lowest / 1.5, highest * 6);
   view->GetRenderWindow()->Render();
   writePng(view->GetRenderWindow(), path);

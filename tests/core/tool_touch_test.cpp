@@ -70,6 +70,26 @@ TEST(ToolTouch, SnapshotsDeformTheSurfaceThatBearsTheForces) {
   EXPECT_THROW(some.computeAt({-1}, snapshot), std::invalid_argument);
 }
 
+TEST(ToolTouch, SnapshotsTellWhichPartPressesEachNode) {
+  const TouchedBody body = touchedSphere(3, true);
+  ToolTouch touch(body.greens, body.mesh, {ballTool(0.3), std::make_shared<Pair>()}, 0.3);
+  const ToolPose poses[] = {at(-0.9, 0, 0.9), at(0.1, 0, 1.1)};
+  Wrench wrenches[2];
+  for (int tick = 0; tick < 10; ++tick) touch.step(poses, wrenches);
+  ContactSnapshot snapshot = touch.makeSnapshot();
+  touch.fill(snapshot);
+  Eigen::Matrix3d sums = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < snapshot.loadedCount; ++i) {
+    ASSERT_TRUE(snapshot.loadedParts[i] >= 0 && snapshot.loadedParts[i] < 3);
+    sums.col(snapshot.loadedParts[i]) += snapshot.loads[i];
+  }
+  const Wrench parts[] = {touch.partWrench(0, 0), touch.partWrench(1, 0), touch.partWrench(1, 1)};
+  for (int part = 0; part < 3; ++part) {
+    EXPECT_GT(parts[part].force.norm(), 0) << part;
+    EXPECT_LE((sums.col(part) + parts[part].force).norm(), 1e-12) << part;
+  }
+}
+
 TEST(ToolTouch, AStiffnessScaleChangesForcesAndNotShapes) {
   const TouchedBody body = touchedSphere(2, true);
   ToolTouch touch(body.greens, body.mesh, {ballTool(0.3)}, 0);

@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -134,14 +135,36 @@ class Lab(Program):
 
 
 class Grasp(Program):
+    def numbers(self, printed, line):
+        """Those in a line of what is printed."""
+        found = re.search(rf"(?m)^{line}(.*)$", printed)
+        self.assertTrue(found, (line, printed))
+        return [float(x) for x in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", found[1])]
+
     def test_tells_the_force_of_each_finger_and_draws_the_hand(self):
         image = self.folder / "grasp.png"
-        printed = self.run_well("grasp", self.model, "--frames", 5, "--image", image)
+        printed = self.run_well("grasp", self.model, "--frames", 60, "--image", image)
         for finger in ("thumb", "index", "middle", "ring", "little", "palm"):
-            self.assertRegex(printed, rf"(?m)^{finger} +force, N +[0-9.e-]+ ")
-        self.assertIn("frames                5, ", printed)
+            size, x, y, z, largest = self.numbers(printed, rf"{finger} +force, N ")
+            self.assertLess(abs(np.linalg.norm([x, y, z]) - size), 0.01 * size + 1e-9)  # 3 digits
+            self.assertGreaterEqual(largest, size)
+        frames, step, _, _ = self.numbers(printed, "frames ")
+        self.assertEqual((frames, step), (60, 32))
         self.assertEqual([p.name for p in self.folder.iterdir()], ["grasp.png"])
-        self.assertGreater(read_picture(image).std(), 10)
+        picture = read_picture(image)
+        red = (picture[..., 0] > 120) & (picture[..., 1:].max(axis=-1) < 60)
+        self.assertGreater(red.sum(), 300)  # arrows
+
+    def test_counts_constraints_that_come_and_go(self):
+        printed = self.run_well("grasp", self.model, "--frames", 60)
+        median, most, frames = self.numbers(printed, "constraint dof ")
+        self.assertTrue(0 < median <= most and 0 < frames < 60)  # the hand comes from afar
+        change, largest, _, many = self.numbers(printed, "  changed since the last frame")
+        self.assertTrue(0 <= change <= largest <= 2 * most and 0 <= many <= frames)
+        self.assertGreater(largest, 0)
+        still = self.run_well("grasp", self.model, "--frames", 10)  # not there yet
+        self.assertEqual(self.numbers(still, "constraint dof "), [0, 0, 0])
+        self.assertEqual(self.numbers(still, "thumb +force, N "), [0] * 5)
 
     def test_refuses_other_devices_and_numbers(self):
         self.run_badly("needs a glove's recording", "grasp", self.model, "--device", "simulated")

@@ -26,7 +26,7 @@ constexpr double GlassOpacity = 0.55;
 constexpr double ArrowLength = 0.3; ///< at the largest force
 constexpr double ArrowWidth = 0.2;  ///< an arrow's source is a fifth as thick as this
 constexpr double LeastArrow = 0.02;
-constexpr double ProbeRadius = 0.010, StaticRadius = 0.007, GodObjectRadius = 0.016;
+constexpr double ProbeRadius = 0.012, StaticRadius = 0.009, GodObjectRadius = 0.019;
 
 vtkSmartPointer<vtkPolyData> ball(double radius)
 {
