@@ -32,7 +32,7 @@ constexpr double kFrameSeconds = 0.032;  ///< of the hand's motion
 constexpr double kRecordingRate = 1000;  ///< moments a second, as `palpate touch` records them
 constexpr int kDefaultFrames = 120;      ///< of the hand that closes by itself
 constexpr double kHandOverModel = 1.65;  ///< length of the hand, over the extent along its fingers
-constexpr double kZoom = 1.35;
+constexpr double kFarther = 0.78;        ///< than a picture of the body alone: the hand is larger
 
 using Clock = std::chrono::steady_clock;
 
@@ -71,10 +71,9 @@ void lookAt(Window& window, const GraspApproach& approach, const SurfaceMesh& me
   const double bounds[6] = {low.x(), high.x(), low.y(), high.y(), low.z(), high.z()};
   // Onto the fingertips and the thumb's side.
   window.lookFrom(
-      0.5 * approach.from + 0.55 * approach.fingers + 0.8 * approach.from.cross(approach.fingers),
+      0.7 * approach.from + 0.7 * approach.fingers + 0.55 * approach.from.cross(approach.fingers),
       bounds);
-  vtkCamera* camera = window.renderer()->GetActiveCamera();
-  camera->Zoom(kZoom / 2);
+  window.renderer()->GetActiveCamera()->Zoom(kFarther);
   window.renderer()->ResetCameraClippingRange();
 }
 
