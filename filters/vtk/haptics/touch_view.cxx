@@ -9,6 +9,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
+#include "vtkCoordinate.h"
 #include "vtkDoubleArray.h"
 #include "vtkLookupTable.h"
 #include "vtkPointData.h"
@@ -49,13 +50,21 @@ TouchView::TouchView()
   this->Status->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
   this->Above->InteractiveOff();
   const std::pair<const char*, const double*> legend[] = {
-    { "x^H  the probe", ProbeColour },
+    { "x^C  the contact on the undeformed surface", StaticColour },
     { "x^E  the contact on the deformed surface", GodObjectColour },
-    { "x^C  the contact on the undeformed surface", StaticColour } };
+    { "x^H  the probe", ProbeColour } };
   for (int i = 0; i < 3; ++i)
   {
-    this->Legend[i]->SetInput(legend[i].first);
-    this->Legend[i]->SetPosition(10, 30 + 18 * i);
+    std::string above; // a line each, from the window's upper edge
+    for (int line = 0; line < i; ++line)
+    {
+      above += " \n";
+    }
+    this->Legend[i]->SetInput((above + legend[i].first).c_str());
+    this->Legend[i]->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    this->Legend[i]->SetPosition(0.01, 0.985);
+    this->Legend[i]->VisibilityOff();
+    this->Legend[i]->GetTextProperty()->SetVerticalJustificationToTop();
     this->Legend[i]->GetTextProperty()->SetFontSize(14);
     this->Legend[i]->GetTextProperty()->SetBold(true);
     this->Legend[i]->GetTextProperty()->SetColor(
@@ -163,11 +172,9 @@ void TouchView::AddProps()
 /// In a layer of the window of its own, with the same camera.
 void TouchView::AddMarks()
 {
-  bool points = false;
   this->Above->AddActor(this->LoadsActor);
   for (const auto& tool : this->Tools)
   {
-    points = points || tool->IsPoint();
     for (vtkProp* mark : tool->Marks())
     {
       this->Above->AddViewProp(mark);
@@ -175,7 +182,6 @@ void TouchView::AddMarks()
   }
   for (vtkTextActor* line : this->Legend)
   {
-    line->SetVisibility(points);
     this->Above->AddActor2D(line);
   }
   this->Window = this->Renderer->GetRenderWindow();
@@ -277,12 +283,18 @@ void TouchView::ShowForces(const ContactSnapshot& contact)
 
 void TouchView::Show(const ServoSnapshot& snapshot)
 {
+  bool points = false;
   for (std::size_t t = 0; t < this->Tools.size() && t < snapshot.contact.tools.size(); ++t)
   {
     const ToolContact& contact = snapshot.contact.tools[t];
     const bool onSurface = contact.touching && contact.triangle >= 0;
+    points = points || onSurface;
     this->Tools[t]->Show(contact,
       onSurface ? this->DeformedPlace(contact.triangle, contact.barycentric) : contact.staticPoint);
+  }
+  for (vtkTextActor* line : this->Legend)
+  {
+    line->SetVisibility(points);
   }
   this->ShowForces(snapshot.contact);
   this->ShowLoads(snapshot.contact);
