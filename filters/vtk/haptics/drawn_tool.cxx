@@ -24,9 +24,9 @@ namespace
 constexpr double GlassOpacity = 0.55;
 // Shares of the body's diagonal.
 constexpr double ArrowLength = 0.3; ///< at the largest force
-constexpr double ArrowWidth = 0.2;  ///< an arrow's source is a fifth as thick as this
+constexpr double ArrowWidth = 0.15; ///< a shaft is 0.06 of this thick: thinner than the marks that it pierces
 constexpr double LeastArrow = 0.02;
-constexpr double ProbeRadius = 0.012, StaticRadius = 0.009, GodObjectRadius = 0.019;
+constexpr double ProbeRadius = 0.012, StaticRadius = 0.014, GodObjectRadius = 0.019;
 
 vtkSmartPointer<vtkPolyData> ball(double radius)
 {
