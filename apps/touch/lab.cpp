@@ -96,6 +96,24 @@ void labelRates(vtkAxis* axis, const std::vector<ZWidthPoint>& points) {
   axis->SetCustomTickPositions(places, labels);
 }
 
+/// The model's own stiffness, between two rates.
+void drawLevel(vtkChartXY* chart, double own, double first, double last) {
+  vtkNew<vtkTable> level;
+  vtkNew<vtkDoubleArray> ends, stiffness;
+  ends->SetName("rate");
+  stiffness->SetName("the model's own");
+  for (double rate : {first, last}) {
+    ends->InsertNextValue(rate);
+    stiffness->InsertNextValue(own);
+  }
+  level->AddColumn(ends);
+  level->AddColumn(stiffness);
+  vtkPlot* line = chart->AddPlot(vtkChart::LINE);
+  line->SetInputData(level, 0, 1);
+  line->SetColor(0.8, 0.1, 0.1);
+  line->GetPen()->SetLineType(vtkPen::DASH_LINE);
+}
+
 void draw(const std::vector<ZWidthPoint>& points, double own, const std::string& path) {
   const VirtualDisplay display;
   vtkNew<vtkContextView> view;
@@ -134,20 +152,7 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
       last = std::max(last, point.rate);
     }
   }
-  vtkNew<vtkTable> level;
-  vtkNew<vtkDoubleArray> ends, stiffness;
-  ends->SetName("rate");
-  stiffness->SetName("the model's own");
-  for (double rate : {first, last}) {
-    ends->InsertNextValue(rate);
-    stiffness->InsertNextValue(own);
-  }
-  level->AddColumn(ends);
-  level->AddColumn(stiffness);
-  vtkPlot* line = chart->AddPlot(vtkChart::LINE);
-  line->SetInputData(level, 0, 1);
-  line->SetColor(0.8, 0.1, 0.1);
-  line->GetPen()->SetLineType(vtkPen::DASH_LINE);
+  drawLevel(chart, own, first, last);
   const std::pair<int, const char*> axes[] = {{vtkAxis::BOTTOM, "rate of the servo loop, Hz"},
                                               {vtkAxis::LEFT, "stiffness, N/m"}};
   for (const auto& [axis, title] : axes) {

@@ -6,8 +6,9 @@
  *
  * An interactor style for any vtkRenderWindowInteractor. It owns the devices and the servo loop, which
  * evaluates contact forces at its own rate whatever the window does, and at the window's rate draws what
- * the latest tick left: the deformed surface, the tools, the god-object of a point, the force on the hand
- * as an arrow, the nodes that bear it, a status line.
+ * the latest tick left: the deformed surface, the tools, a status line; and, seen through the surface, the
+ * three places of a point's contact, the force on the hand as an arrow (a hand's as one a finger), the nodes
+ * that bear it.
  *
  * By default the mouse touches with a point: the left button, on the surface, brings the probe there and
  * presses it in by PressDepth; dragging moves it in the plane of the view, the wheel deeper or out, with
