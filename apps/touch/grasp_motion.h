@@ -20,7 +20,7 @@ struct GraspApproach {
 /// @param freeSide  the way that the free part of the surface looks.
 GraspApproach approachTo(const SceneBody& body, const Eigen::Vector3d& freeSide);
 
-constexpr double kMomentsASecond = 250;  ///< of the motion below
+constexpr double kMomentsASecond = 125;  ///< of the motion below: as many as a glove reports
 
 /// A hand that comes down on a body, closes around it, lets go and grasps it again five times, rubs
 /// it and holds it: four seconds at the pace of hands. How far each joint closes follows from the
