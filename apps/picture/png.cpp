@@ -9,9 +9,9 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <cstdio>
-#include <fstream>
-#include <stdexcept>
+#include <ostream>
+
+#include "whole_file.h"
 
 namespace palpate::app {
 
@@ -25,16 +25,9 @@ void writePng(vtkRenderWindow* window, const std::string& path) {
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  const std::string partial = path + ".part";
-  std::ofstream file(partial, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  file.close();
-  if (!file || std::rename(partial.c_str(), path.c_str()) != 0) {
-    std::remove(partial.c_str());
-    throw std::runtime_error(path +
-                             ": the picture cannot be written: is the folder there and "
-                             "writable, is the disk full?");
-  }
+  writeWholeFile(path, [bytes](std::ostream& file) {
+    file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
+  });
 }
 
 }  // namespace palpate::app

@@ -138,7 +138,7 @@ TEST(DeviceRecordingFile, CutShortAnywhereIsRefused) {
 TEST(DeviceRecordingFile, IsWrittenWholeOrNotAtAll) {
   const std::string folder = ::testing::TempDir() + "palpate_no_such_folder/";
   EXPECT_TRUE(isRefused<std::runtime_error>(
-      [&] { writeDeviceRecording(someRecording(), folder + "x"); }, "cannot be written to"));
+      [&] { writeDeviceRecording(someRecording(), folder + "x"); }, "x cannot be written"));
   const TemporaryPath file("before");
   DeviceRecording recording;
   recording.info.name = "two\nlines";

@@ -349,7 +349,7 @@ class Recordings(Touching):
         style = Touch(block_model())
         style.SetRecordFileName(str(self.folder / "no" / "file.txt"))
         self.run_well(style, 0.1)
-        self.refuse(style, "the recording cannot be written to", style.Stop)
+        self.refuse(style, "file.txt cannot be written", style.Stop)
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_that_are_missing_or_wrong_are_a_failure_of_the_start(self):

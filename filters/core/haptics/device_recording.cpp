@@ -4,11 +4,11 @@
 #include "haptics/device_recording.h"
 
 #include <charconv>
-#include <cstdio>
 #include <fstream>
-#include <random>
 #include <stdexcept>
 #include <system_error>
+
+#include "whole_file.h"
 
 namespace palpate {
 namespace {
@@ -125,8 +125,7 @@ void requireWritable(const DeviceRecording& recording) {
   }
 }
 
-void writeTo(const DeviceRecording& recording, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
+void writeTo(std::ostream& file, const DeviceRecording& recording) {
   std::string limits = "limits ";
   append(limits, recording.info.largestForce);
   append(limits, recording.info.largestTorque);
@@ -135,8 +134,6 @@ void writeTo(const DeviceRecording& recording, const std::string& path) {
   file << kFirstLine << "\nname " << recording.info.name << "\n" << limits;
   file << "moments " << recording.moments.size() << "\n";
   for (const DeviceMoment& moment : recording.moments) file << lineOf(moment);
-  file.close();
-  if (!file) throw std::runtime_error("the recording cannot be written to '" + path + "'");
 }
 
 }  // namespace
@@ -170,15 +167,7 @@ DeviceRecording readDeviceRecording(const std::string& path) {
 
 void writeDeviceRecording(const DeviceRecording& recording, const std::string& path) {
   requireWritable(recording);
-  const std::string partial = path + "." + std::to_string(std::random_device()()) + ".part";
-  try {
-    writeTo(recording, partial);
-    if (std::rename(partial.c_str(), path.c_str()) != 0)
-      throw std::runtime_error("the recording cannot be written to '" + path + "'");
-  } catch (...) {
-    std::remove(partial.c_str());
-    throw;
-  }
+  writeWholeFile(path, [&](std::ostream& file) { writeTo(file, recording); });
 }
 
 }  // namespace palpate

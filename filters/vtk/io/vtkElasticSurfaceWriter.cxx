@@ -4,6 +4,7 @@
 #include "vtkElasticSurfaceWriter.h"
 
 #include "file_checks.h"
+#include "whole_file.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -11,8 +12,6 @@
 #include "vtkXMLPolyDataWriter.h"
 #include "vtksys/SystemTools.hxx"
 
-#include <cstdio>
-#include <random>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkElasticSurfaceWriter);
@@ -53,21 +52,12 @@ void writeFile(vtkPolyData* surface, const std::string& path)
   {
     throw std::runtime_error("models are written as .vtp: choose a name that ends so");
   }
-  const std::string partial = path + "." + std::to_string(std::random_device()()) + ".part";
-  try
-  {
-    writeTo(surface, partial);
-    palpate::io::sealXml(partial);
-    if (std::rename(partial.c_str(), path.c_str()) != 0)
+  palpate::replaceFile(path,
+    [surface](const std::string& partial)
     {
-      throw std::runtime_error("the finished file cannot be moved to its place");
-    }
-  }
-  catch (...)
-  {
-    std::remove(partial.c_str());
-    throw;
-  }
+      writeTo(surface, partial);
+      palpate::io::sealXml(partial);
+    });
 }
 } // namespace
 
