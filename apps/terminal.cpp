@@ -48,11 +48,13 @@ void requireWritable(CLI::Option* option, const std::string& what, const std::st
   const auto complaint = [what, ending](const std::string& name) -> std::string {
     const std::filesystem::path path = name,
                                 folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (CLI::detail::to_lower(path.extension().string()) != ending)
+    if (!ending.empty() && CLI::detail::to_lower(path.extension().string()) != ending)
       return what + " are written as " + ending + ": choose a name that ends so, not " + name;
     std::error_code unknown;
     if (std::filesystem::is_directory(path, unknown))
       return name + " cannot be written: it is a folder";
+    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+      return name + " cannot be written: it is not an ordinary file";
     if (!std::filesystem::is_directory(folder, unknown))
       return name + " cannot be written: there is no folder " + folder.string();
     if (access(folder.c_str(), W_OK | X_OK) != 0)
@@ -88,6 +90,10 @@ void catchInterrupts() {
   action.sa_handler = [](int) { interrupted = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+bool isInterrupted() {
+  return interrupted != 0;
 }
 
 void printRow(const std::string& label, const std::string& value) {
@@ -148,8 +154,8 @@ void MaskOptions::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"linear", "uniform", "gaussian", "hertzian"}))
       ->capture_default_str();
   command.add_option("--rigid-stiffness", rigidStiffness,
-                     "Stiffness of fixed vertices and largest stiffness shown, N/m; 0 for the "
-                     "stiffest free vertex");
+                     "Stiffness of fixed vertices and largest Frobenius norm of the stiffnesses "
+                     "shown, N/m; 0 for the stiffest free vertex");
 }
 
 void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {

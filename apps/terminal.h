@@ -22,7 +22,8 @@ namespace palpate::app {
 
 /// Has an option's path checked before anything is computed: its ending, and that its folder can be
 /// written to.
-/// @param what  what is written, for the sentence.
+/// @param what    what is written, for the sentence.
+/// @param ending  empty for any.
 void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending);
 /// @throws std::runtime_error with the writer's sentence.
 void writeSurface(vtkPolyData* surface, const std::string& path);
@@ -33,6 +34,8 @@ vtkSmartPointer<vtkPolyData> run(vtkPolyDataAlgorithm* filter);
 
 /// Turns Ctrl-C and termination into an abort that leaves nothing half done.
 void catchInterrupts();
+/// Whether one of them came.
+bool isInterrupted();
 
 /// "label   value" lines for people, on stdout.
 void printRow(const std::string& label, const std::string& value);

@@ -10,45 +10,105 @@
 #include "library.h"
 #include "terminal.h"
 #include "touch/touch_window.h"
+#include "touch_checks.h"
 
 namespace palpate::app {
 namespace {
 
-void run(const TouchOptions& options) {
+constexpr double kFarthest = 1e6;
+constexpr double kLargestFriction = 100;
+constexpr double kMostSeconds = 86400;
+constexpr double kMostFrames = 10000;
+
+void run(TouchOptions& options) {
+  options.isInterrupted = &isInterrupted;
   static const auto touch = reinterpret_cast<TouchFunction>(
       loadFunction(kTouchLibrary, kTouchFunction, "there is nothing to touch with"));
   const std::string failure = touch(options);
   if (!failure.empty()) throw std::runtime_error(failure);
 }
 
-/// Negative numbers stand for options that were not given. CLI11's own check lets NaN pass.
-void requireNotNegative(CLI::Option* option) {
-  const auto complaint = [](const std::string& text) -> std::string {
+/// CLI11's own checks let NaN pass.
+void requireBetween(CLI::Option* option, double least, double most) {
+  const auto complaint = [least, most](const std::string& text) -> std::string {
     const double value = std::strtod(text.c_str(), nullptr);
-    return value >= 0 ? "" : "must be a number that is not negative, not " + text;
+    if (value >= least && value <= most) return {};
+    return "must be a number from " + number(least, 6) + " to " + number(most, 6) + ", not " + text;
+  };
+  option->check(CLI::Validator(complaint, ""));
+}
+
+void requirePositive(CLI::Option* option, double most) {
+  const auto complaint = [most](const std::string& text) -> std::string {
+    const double value = std::strtod(text.c_str(), nullptr);
+    if (value > 0 && value <= most) return {};
+    return "must be a positive number of at most " + number(most, 6) + ", not " + text;
   };
   option->check(CLI::Validator(complaint, ""));
 }
 
 void addLabOptions(CLI::App& command, TouchOptions& options) {
-  command.add_flag("--lab", options.lab,
-                   "Press a simulated device into the model instead, and find the stiffness it can "
-                   "render against rate and damping");
-  command.add_option("--at", options.at, "Where the lab presses: the nearest point of the surface")
-      ->expected(3);
-  requireNotNegative(command.add_option("--depth", options.depth, "How deep, in the points' unit"));
-  command.add_option("--rates", options.rates, "Hz; by default 250 500 1000 2000 4000");
-  command.add_option("--dampings", options.dampings, "N s/m; by default 0.1 0.5 2");
-  command.add_option("--delays", options.delays, "Ticks from pose to force; by default 0 1");
+  CLI::Option* lab =
+      command.add_flag("--lab", options.lab,
+                       "Press a simulated device into the model instead, and find the stiffness it "
+                       "can render against rate and damping");
+  for (const char* other : {"--device", "--tool-radius", "--friction", "--rate", "--deformation",
+                            "--record", "--forces", "--seconds", "--headless", "--plan"})
+    lab->excludes(other);
+  CLI::Option* at =
+      command
+          .add_option("--at", options.at, "Where the lab presses: the nearest point of the surface")
+          ->expected(3);
+  CLI::Option* depth =
+      command.add_option("--depth", options.depth, "How deep, in the points' unit");
+  CLI::Option* rates =
+      command.add_option("--rates", options.rates, "Hz; by default 250 500 1000 2000 4000");
+  CLI::Option* dampings =
+      command.add_option("--dampings", options.dampings, "N s/m; by default 0.1 0.5 2");
+  CLI::Option* delays =
+      command.add_option("--delays", options.delays, "Ticks from pose to force; by default 0 1");
+  requireBetween(at, -kFarthest, kFarthest);
+  requirePositive(depth, kFarthest);
+  requireBetween(rates, 10, 1e5);
+  requireBetween(dampings, 1e-3, 1e3);
+  requireBetween(delays, 0, 1000);
+  for (CLI::Option* option : {at, depth, rates, dampings, delays}) option->needs(lab);
 }
 
-void requireSensible(const TouchOptions& options) {
-  if (options.model.empty() == options.scene.empty())
-    throw CLI::RequiredError("a model or a --scene, one of the two,");
-  if (options.headless && options.seconds <= 0 && !options.lab)
-    throw CLI::RequiredError("--headless needs --seconds, which");
-  if (!options.image.empty() && !options.headless && !options.lab)
-    throw CLI::RequiredError("--image needs --headless or --lab, one of which");
+void addDeviceOptions(CLI::App& command, TouchOptions& options) {
+  command.add_option(
+      "--device", options.device,
+      "mouse, scripted:FILE, simulated, hid, or hid:VVVV:PPPP as `palpate devices` lists it");
+  requireBetween(command.add_option("--rate", options.rate,
+                                    "Ticks of the servo loop a second; 1000 by default"),
+                 250, 10000);
+  requireWritable(command.add_option("--record", options.record,
+                                     "Write the device's motion to this file, at most 120 seconds"),
+                  "recordings", "");
+  requireWritable(command.add_option("--forces", options.forces,
+                                     "Write the forces that a scripted device rendered to this "
+                                     "file, CSV"),
+                  "forces", "");
+}
+
+void addContactOptions(CLI::App& command, TouchOptions& options) {
+  requirePositive(command.add_option("--tool-radius", options.toolRadius,
+                                     "Touch with a ball of this radius instead of a point"),
+                  kFarthest);
+  requireBetween(command.add_option("--friction", options.friction,
+                                    "Coulomb's coefficient, up to 100; 0.3 by default"),
+                 0, kLargestFriction);
+  requireBetween(command.add_option("--radius", options.maskRadius,
+                                    "Radius of a point's pressure mask; two mean edges by default"),
+                 0, kFarthest);
+  requireBetween(command.add_option("--rigid-stiffness", options.stiffnessLimit,
+                                    "Largest Frobenius norm of the stiffness matrix that a point "
+                                    "shows, N/m; 0 for the stiffest free vertex"),
+                 0, 1e15);
+  command
+      .add_option("--deformation", options.deformation,
+                  "Whose displacements are computed: all, visible, contact or none")
+      ->check(CLI::IsMember({"all", "visible", "contact", "none"}));
 }
 
 }  // namespace
@@ -59,33 +119,18 @@ void addTouch(CLI::App& program) {
   command->add_option("input", options->model, "A model from `palpate precompute`");
   command->add_option("--scene", options->scene,
                       "Or a scene, JSON: models, tools, devices and effects");
-  auto* device = command->add_option(
-      "--device", options->device,
-      "mouse, scripted:FILE, simulated, hid, or hid:VVVV:PPPP as `palpate devices` lists it");
-  command->add_option("--tool-radius", options->toolRadius,
-                      "Touch with a ball of this radius instead of a point");
-  requireNotNegative(command->add_option("--friction", options->friction,
-                                         "Coulomb's coefficient; 0.3 by default"));
-  requireNotNegative(
-      command->add_option("--radius", options->maskRadius,
-                          "Radius of a point's pressure mask; two mean edges by default"));
-  requireNotNegative(command->add_option("--rigid-stiffness", options->stiffnessLimit,
-                                         "Most stiffness that a point shows, N/m"));
-  command->add_option("--rate", options->rate, "Ticks of the servo loop a second; 1000 by default");
-  command
-      ->add_option("--deformation", options->deformation,
-                   "Whose displacements are computed: all, visible, contact or none")
-      ->check(CLI::IsMember({"all", "visible", "contact", "none"}));
-  command->add_option("--record", options->record, "Write the device's motion to this file");
-  command->add_option("--forces", options->forces,
-                      "Write the forces that a scripted device rendered to this file, CSV");
-  requireNotNegative(command->add_option("--seconds", options->seconds, "End after this time"));
+  addDeviceOptions(*command, *options);
+  addContactOptions(*command, *options);
+  requirePositive(command->add_option("--seconds", options->seconds, "End after this time"),
+                  kMostSeconds);
   command->add_flag("--headless", options->headless,
                     "Without a window, on virtual time: the same each time, bit for bit");
-  command->add_flag("--plan", options->plan, "Print what a tick and a frame will compute, and end");
-  requireWritable(
-      command->add_option("--image", options->image, "Draw the last frame, or the lab's plot"),
-      "pictures", ".png");
+  CLI::Option* plan = command->add_flag("--plan", options->plan,
+                                        "Print what a tick and a frame will compute, and end");
+  CLI::Option* image =
+      command->add_option("--image", options->image, "Draw the last frame, or the lab's plot");
+  requireWritable(image, "pictures", ".png");
+  plan->excludes("--record")->excludes("--forces")->excludes(image);
   addLabOptions(*command, *options);
   command->footer(
       "In the window: left button on the surface touches (wheel: deeper; Control: pull), right\n"
@@ -94,8 +139,8 @@ void addTouch(CLI::App& program) {
       "  palpate touch model.vtp\n"
       "  palpate touch model.vtp --device scripted:press.txt --headless --seconds 2 --image a.png\n"
       "  palpate touch model.vtp --lab --image zwidth.png");
-  command->callback([options, device] {
-    options->deviceGiven = device->count() > 0;
+  command->callback([options, command] {
+    options->deviceGiven = command->count("--device") > 0;
     requireSensible(*options);
     run(*options);
   });
@@ -109,12 +154,14 @@ void addGrasp(CLI::App& program) {
   command->add_option("input", options->model, "A model from `palpate precompute`")->required();
   command->add_option("--device", options->device,
                       "scripted:FILE, a glove's recording; by default a hand that closes");
-  requireNotNegative(command->add_option("--hand-length", options->handLength,
-                                         "Wrist to fingertip; by default to fit the model"));
-  requireNotNegative(command->add_option("--friction", options->friction,
-                                         "Coulomb's coefficient; 0.5 by default"));
-  requireNotNegative(
-      command->add_option("--frames", options->frames, "Frames to draw; 120 by default"));
+  requirePositive(command->add_option("--hand-length", options->handLength,
+                                      "Wrist to fingertip; by default to fit the model"),
+                  kFarthest);
+  requireBetween(command->add_option("--friction", options->friction,
+                                     "Coulomb's coefficient, up to 100; 0.5 by default"),
+                 0, kLargestFriction);
+  requireBetween(command->add_option("--frames", options->frames, "Frames to draw; 120 by default"),
+                 1, kMostFrames);
   requireWritable(command->add_option("--image", options->image, "Draw the last frame"), "pictures",
                   ".png");
   command->footer("  palpate grasp model.vtp --image grasp.png");

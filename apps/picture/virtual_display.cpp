@@ -5,10 +5,12 @@
 
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <X11/Xlib.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -24,7 +26,10 @@ bool hasDisplay() {
   return display != nullptr;
 }
 
+/// A process group of its own: Ctrl-C is the program's, which still needs the server to end well.
 [[noreturn]] void becomeServer(int displayNumberPipe) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   const std::string pipeText = std::to_string(displayNumberPipe);
   if (!freopen("/dev/null", "w", stderr)) _exit(127);
   execlp("Xvfb", "Xvfb", "-displayfd", pipeText.c_str(), "-screen", "0", "1280x1024x24",
@@ -37,7 +42,9 @@ std::string readLine(int pipe) {
   std::string line;
   for (char c;;) {
     pollfd waiting{pipe, POLLIN, 0};
-    if (poll(&waiting, 1, kStartMilliseconds) <= 0 || read(pipe, &c, 1) != 1) return {};
+    const int ready = poll(&waiting, 1, kStartMilliseconds);
+    if (ready < 0 && errno == EINTR) continue;  // whoever asks for the display ends the program
+    if (ready <= 0 || read(pipe, &c, 1) != 1) return {};
     if (c == '\n') return line;
     line += c;
   }

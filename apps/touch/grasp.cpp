@@ -111,6 +111,7 @@ void runGrasp(const TouchOptions& options) {
   GraspTally tally;
   const auto start = Clock::now();
   while (tally.frames() < replay.frames) {
+    requireUninterrupted(options);
     for (int tick = 0; tick < replay.momentsAFrame; ++tick) {
       const auto begin = Clock::now();
       glove.read(state);

@@ -222,8 +222,12 @@ void runLab(const TouchOptions& options) {
       orElse(options.rates, std::vector<double>{250, 500, 1000, 2000, 4000});
   const std::vector<double> dampings = orElse(options.dampings, std::vector<double>{0.1, 0.5, 2});
   const std::vector<int> delays = orElse(options.delays, std::vector<int>{0, 1});
+  const Progress progress([&](double fraction, const char* stage) {
+    requireUninterrupted(options);
+    return drawProgress(fraction, stage);
+  });
   const std::vector<ZWidthPoint> points =
-      zWidth(*session.model(), settings, rates, dampings, delays, Progress(drawProgress));
+      zWidth(*session.model(), settings, rates, dampings, delays, progress);
   endProgressBar();
 
   std::printf("pressed at %.6g %.6g %.6g, %.4g deep: %.4g N/m\n", settings.place.x(),

@@ -13,16 +13,18 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
 #include "picture/virtual_display.h"
 #include "touch/window.h"
+#include "whole_file.h"
 
 namespace palpate::app {
 
@@ -30,7 +32,13 @@ void require(bool done, vtkInteractorStyleHaptic* style) {
   if (!done) throw std::runtime_error(style->GetFailureMessage());
 }
 
+void requireUninterrupted(const TouchOptions& options) {
+  if (options.isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+}
+
 namespace {
+
+constexpr long long kTicksPerPiece = 100;
 
 void setDevice(vtkInteractorStyleHaptic* style, const std::string& device) {
   unsigned vendor = 0, product = 0;
@@ -73,17 +81,12 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
 void writeForces(vtkInteractorStyleHaptic* style, const std::string& path) {
   vtkNew<vtkDoubleArray> trace;
   style->GetForceTrace(trace);
-  const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished);
-  file.precision(17);
-  file << "force_x,force_y,force_z,torque_x,torque_y,torque_z\n";
-  for (vtkIdType i = 0; i < trace->GetNumberOfTuples(); ++i)
-    for (int c = 0; c < 6; ++c) file << trace->GetComponent(i, c) << (c < 5 ? "," : "\n");
-  file.close();
-  if (!file || std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    std::remove(unfinished.c_str());
-    throw std::runtime_error(path + " cannot be written");
-  }
+  writeWholeFile(path, [&trace](std::ostream& file) {
+    file.precision(17);
+    file << "force_x,force_y,force_z,torque_x,torque_y,torque_z\n";
+    for (vtkIdType i = 0; i < trace->GetNumberOfTuples(); ++i)
+      for (int c = 0; c < 6; ++c) file << trace->GetComponent(i, c) << (c < 5 ? "," : "\n");
+  });
 }
 
 void printState(vtkInteractorStyleHaptic* style) {
@@ -107,6 +110,17 @@ bool hasDisplay() {
   return display && *display;
 }
 
+/// In pieces, between which it can be interrupted.
+void tickThrough(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
+  const double rate = style->GetServoRate();
+  const long long ticks = std::llround(options.seconds * rate);
+  for (long long done = 0; done < ticks; done += kTicksPerPiece) {
+    requireUninterrupted(options);
+    require(style->RunHeadless(std::min(kTicksPerPiece, ticks - done) / rate), style);
+  }
+  requireUninterrupted(options);
+}
+
 void runHeadless(const TouchOptions& options) {
   std::unique_ptr<VirtualDisplay> display;
   std::unique_ptr<Window> window;
@@ -120,18 +134,22 @@ void runHeadless(const TouchOptions& options) {
   configure(style, options);
   require(style->RunHeadless(0), style);
   if (window) window->lookAt(style);
-  require(style->RunHeadless(options.seconds), style);
+  tickThrough(style, options);
   require(style->Stop(), style);
   if (!options.forces.empty()) writeForces(style, options.forces);
   if (window) window->write(options.image);
   printState(style);
 }
 
-/// Ends an interactor after some time.
+/// Ends an interactor after some time, or when it is interrupted.
 struct Clock {
-  std::chrono::steady_clock::time_point end;
+  const TouchOptions& options;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   static void look(vtkObject* caller, unsigned long, void* self, void*) {
-    if (std::chrono::steady_clock::now() >= static_cast<Clock*>(self)->end)
+    const auto& [options, start] = *static_cast<Clock*>(self);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    const bool isOver = options.seconds > 0 && passed.count() >= options.seconds;
+    if (isOver || options.isInterrupted())
       static_cast<vtkRenderWindowInteractor*>(caller)->TerminateApp();
   }
 };
@@ -160,13 +178,13 @@ void runWindow(const TouchOptions& options) {
   window.interactor()->Initialize();
   require(style->Start(), style);
   window.lookAt(style);
-  Clock clock{std::chrono::steady_clock::now() +
-              std::chrono::milliseconds(static_cast<long>(1000 * options.seconds))};
+  Clock clock{options};
   vtkNew<vtkCallbackCommand> look;
   look->SetCallback(&Clock::look);
   look->SetClientData(&clock);
-  if (options.seconds > 0) window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
+  window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
   window.interactor()->Start();
+  requireUninterrupted(options);
   require(style->Stop(), style);
   if (!options.forces.empty()) writeForces(style, options.forces);
   printState(style);

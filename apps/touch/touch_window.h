@@ -18,7 +18,8 @@ struct TouchOptions {
   std::string deformation;  ///< all, visible, contact, none; empty: as it is
   std::string record, forces, image;
   bool headless = false, plan = false;
-  double seconds = 0;  ///< to run, 0 until the window is closed
+  double seconds = 0;                 ///< to run, 0 until the window is closed
+  bool (*isInterrupted)() = nullptr;  ///< asked while it runs
 
   // The laboratory of stability:
   bool lab = false;
@@ -33,11 +34,16 @@ struct TouchOptions {
   int frames = 0;
 };
 
+constexpr double kMostRecordedSeconds = 120;
+
 /// Of the library that renders.
 constexpr const char* kTouchLibrary = "libpalpate_touch.so";
 constexpr const char* kTouchFunction = "palpate_touch";
 /// @return an empty string, or what went wrong.
 using TouchFunction = std::string (*)(const TouchOptions& options);
+
+/// @throws std::runtime_error if the run is to end, before anything is written.
+void requireUninterrupted(const TouchOptions& options);
 
 /// What the library's sources have in common: each throws with a sentence.
 void runWindow(const TouchOptions& options);

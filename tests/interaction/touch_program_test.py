@@ -5,8 +5,11 @@
 import json
 import os
 import re
+import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -128,10 +131,22 @@ class Lab(Program):
 
     def test_refuses_what_it_cannot_press(self):
         lab = ("touch", self.model, "--lab")
-        self.run_badly("rate is out of range", *lab, "--rates", 0)
-        self.run_badly("--depth: must be a number that is not negative", *lab, "--depth", -1)
+        for rate in (0, 1e9, "nan"):
+            self.run_badly("--rates: must be a number from 10 to 100000", *lab, "--rates", rate)
+        for depth in (-1, 0, "nan"):
+            self.run_badly("--depth: must be a positive number", *lab, "--depth", depth)
+        self.run_badly("--dampings: must be a number from 0.001 to 1000", *lab, "--dampings", 0)
+        self.run_badly("--delays: must be a number from 0 to 1000", *lab, "--delays", 100000)
         self.run_badly("pictures are written as .png", *lab, "--image", self.folder / "a.jpg")
         self.run_badly("the lab presses one model", "touch", "--scene", "none.json", "--lab")
+
+    def test_and_touch_do_not_take_each_others_options(self):
+        touch = ("touch", self.model, "--headless", "--seconds", 1)
+        for option in (("--at", 0, 0, 0), ("--depth", 1), ("--rates", 500), ("--dampings", 1),
+                       ("--delays", 1)):
+            self.run_badly(f"{option[0]} requires --lab", *touch, *option)
+        for option in (("--seconds", 1), ("--rate", 500), ("--friction", 1), ("--plan",)):
+            self.run_badly("excludes", "touch", self.model, "--lab", *option)
 
 
 class Grasp(Program):
@@ -168,8 +183,11 @@ class Grasp(Program):
 
     def test_refuses_other_devices_and_numbers(self):
         self.run_badly("needs a glove's recording", "grasp", self.model, "--device", "simulated")
-        self.run_badly("--frames: must be a number that is not negative", "grasp", self.model,
-                       "--frames", -3)
+        for frames in (-3, 0, 1000000):
+            self.run_badly("--frames: must be a number from 1 to 10000", "grasp", self.model,
+                           "--frames", frames)
+        self.run_badly("--hand-length: must be a positive number", "grasp", self.model,
+                       "--hand-length", 0)
         self.run_badly("there is no such file", "grasp", self.folder / "none.vtp")
 
 
@@ -194,23 +212,64 @@ class Failures(Program):
                        self.folder / "a.png")
         touch = ("touch", self.model, "--headless", "--seconds", 1)
         self.run_badly("--deformation", *touch, "--deformation", "some")
-        self.run_badly("between 250 and 10000 Hz", *touch, "--rate", 100)
-        self.run_badly("radius of a ball must be positive", *touch, "--tool-radius", -1)
-        for option in ("--friction", "--radius", "--rigid-stiffness"):
-            for value in (-2, "nan"):
-                self.run_badly("must be a number that is not negative", *touch, option, value)
-        self.run_badly("must be a number that is not negative", *touch[:-1], "nan")
+        for option, limits in (("--rate", "from 250 to 10000"), ("--friction", "from 0 to 100"),
+                               ("--radius", "from 0 to 1e+06"),
+                               ("--rigid-stiffness", "from 0 to 1e+15")):
+            for value in (-2, "nan", "inf"):
+                self.run_badly(f"{option}: must be a number {limits}, not {value}", *touch, option,
+                               value)
+        self.run_badly("--rate: must be a number from 250", *touch, "--rate", 0)
+        for value in (-1, 0, "nan", "inf"):
+            self.run_badly("--tool-radius: must be a positive number of at most 1e+06", *touch,
+                           "--tool-radius", value)
+            self.run_badly("--seconds: must be a positive number of at most 86400", *touch[:-1], value)
+        self.run_badly("--seconds: must be a positive number", *touch[:-1], 1e12)
+        self.run_badly("--record holds at most 120 seconds", *touch[:-1], 121, "--record",
+                       self.folder / "a.txt")
+        for device in ("mouse", "simulated"):
+            self.run_badly("--forces tells the forces on a recording that is replayed", *touch,
+                           "--device", device, "--forces", self.folder / "a.csv")
 
     def test_of_files_leave_nothing_half_written(self):
         self.run_badly("none.vtp: there is no such file", "touch", self.folder / "none.vtp", "--plan")
-        touch = ("touch", self.model, "--headless", "--seconds", 0.1)
-        self.run_badly("cannot be written", *touch, "--forces", self.folder / "no" / "a.csv")
-        self.run_badly("cannot be written", *touch, "--record", self.folder / "no" / "a.txt")
-        self.run_badly("there is no folder", *touch, "--image", self.folder / "no" / "a.png")
+        touch = (*self.scripted(PRESS), "--seconds", 80000)  # no time to run before the complaint
+        for option in ("--forces", "--record", "--image"):
+            self.run_badly("there is no folder", *touch, option, self.folder / "no" / "a.png")
+            folder = self.folder / "folder.png"
+            folder.mkdir(exist_ok=True)
+            self.run_badly("it is a folder", *touch, option, folder)
+        for option in ("--forces", "--record"):
+            self.run_badly("it is not an ordinary file", *touch, option, "/dev/null")
         self.run_badly("pictures are written as .png", *touch, "--image", self.folder / "a.jpg")
         bare = self.folder / "bare.vtp"
         palpate.write(palpate.read(palpate.example("kidney")), bare)
         self.run_badly("carries no Green's functions", "touch", bare, "--plan")
+
+    def test_are_told_before_a_file_is_written_over_or_twice(self):
+        touch = (*self.scripted(PRESS), "--seconds", 0.1)
+        script, link = self.folder / "motion.txt", self.folder / "link.png"
+        link.symlink_to(script)
+        for option in ("--forces", "--record"):
+            for name in (script, self.folder / ".." / self.folder.name / "motion.txt", link):
+                self.run_badly(f"{option} would write over the recording of --device", *touch, option,
+                               name)
+            self.run_badly(f"{option} would write over the model", *touch, option, self.model)
+        self.run_badly("--image would write over the recording", *touch, "--image", link)
+        same = self.folder / "same.png"
+        self.run_badly("--forces would write over --record", *touch, "--record", same, "--forces",
+                       same)
+        self.run_badly("--image would write over --record", *touch, "--record", same, "--image", same)
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps({
+            "models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
+            "devices": [{"name": "m", "type": "scripted", "file": "motion.txt"}]}))
+        scened = ("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+        self.run_badly("--record would write over a recording of --scene", *scened, "--record", script)
+        self.run_badly("--record would write over a model of --scene", *scened, "--record", self.model)
+        self.run_badly("--record would write over --scene", *scened, "--record", scene)
+        self.run_well(*scened, "--forces", self.folder / "forces.csv")
+        self.run_badly("--forces tells the forces on a recording", *scened, "--device", "mouse",
+                       "--forces", self.folder / "none.csv")
 
     def test_of_scenes_name_the_key(self):
         scene = {"models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
@@ -227,6 +286,62 @@ class Failures(Program):
         self.run_badly("scene.json", "touch", "--scene", file, "--headless", "--seconds", 1)
         file.write_text(json.dumps(scene))
         self.assertIn("0 N free", self.run_well("touch", "--scene", file, "--headless", "--seconds", 0.1))
+
+
+class Interruption(Program):
+    """Ctrl-C and termination end a run soon, with a sentence and without a file."""
+
+    def interrupt(self, how, *arguments, env=WITHOUT_DISPLAY):
+        before = sorted(self.folder.iterdir())
+        with subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, text=True,
+                              stderr=subprocess.PIPE, env=env, start_new_session=True) as run:
+            try:
+                self.await_handler(run.pid, how)
+                time.sleep(0.5)
+                os.killpg(run.pid, how)
+                out, errors = run.communicate(timeout=30)
+            finally:
+                run.kill()
+        self.assertEqual((out, errors), ("", "palpate: interrupted; nothing was written\n"))
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(before, sorted(self.folder.iterdir()))
+
+    def await_handler(self, process, how):
+        status = Path(f"/proc/{process}/status")
+        for _ in range(3000):
+            caught = [line for line in status.read_text().splitlines() if line.startswith("SigCgt")]
+            if int(caught[0].split()[1], 16) >> (how - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail("the program does not catch the signal")
+
+    def test_ends_a_run_without_a_window(self):
+        for how in (signal.SIGINT, signal.SIGTERM):
+            self.interrupt(how, *self.scripted(PRESS), "--seconds", 80000, "--forces",
+                           self.folder / "a.csv")
+
+    def test_ends_a_run_that_draws_on_a_display_of_its_own(self):
+        self.interrupt(signal.SIGINT, *self.scripted(PRESS), "--seconds", 80000, "--image",
+                       self.folder / "a.png")
+
+    def test_ends_the_lab(self):
+        self.interrupt(signal.SIGTERM, "touch", self.model, "--lab", "--rates", 100000, 100000,
+                       "--dampings", 0.001, "--image", self.folder / "a.png")
+
+    def test_ends_a_grasp(self):
+        self.interrupt(signal.SIGINT, "grasp", self.model, "--frames", 10000, "--image",
+                       self.folder / "a.png")
+
+    @unittest.skipUnless(shutil.which("Xvfb"), "no display to be had")
+    def test_ends_a_window(self):
+        with subprocess.Popen(["Xvfb", "-displayfd", "1", "-nolisten", "tcp"], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
+            try:
+                env = {**os.environ, "DISPLAY": ":" + server.stdout.readline().strip()}
+                self.interrupt(signal.SIGTERM, "touch", self.model, "--record",
+                               self.folder / "a.txt", env=env)
+            finally:
+                server.terminate()
 
 
 class Devices(Program):

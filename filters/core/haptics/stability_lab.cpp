@@ -21,6 +21,8 @@ constexpr double kLargestSwing =
     0.5;  // root mean square over depth: it leaves the surface, or soon will
 constexpr int kWindows = 16;
 constexpr double kMostSeconds = 60;  // watched, for a device that is hardly damped
+constexpr double kLeastRate = 10, kMostRate = 1e5;
+constexpr long kTicksPerReport = 1 << 14;
 
 void require(bool good, const char* name, double value) {
   if (!good)
@@ -52,13 +54,18 @@ struct Window {
 /// A simulated device at a model whose forces are scaled.
 class Bench {
  public:
-  Bench(TouchModel& model, const LabSettings& settings, double scale)
-      : model_(model), settings_(settings), scale_(scale), device_(settings.device) {
+  Bench(TouchModel& model, const LabSettings& settings, double scale, const Progress& progress)
+      : model_(model),
+        settings_(settings),
+        scale_(scale),
+        progress_(progress),
+        device_(settings.device) {
     model_.reset();
   }
 
   /// @return false if the model failed or the device left all bounds.
   bool tick(LabRun& result) {
+    if (++ticks_ % kTicksPerReport == 0) progress_.report(0, "press");
     device_.read(state_);
     const Eigen::Vector3d& position = state_.pose.position;
     pose_.position = settings_.place + position;
@@ -94,6 +101,8 @@ class Bench {
   TouchModel& model_;
   const LabSettings& settings_;
   double scale_;
+  const Progress& progress_;
+  long ticks_ = 0;
   SimulatedDevice device_;
   PassivityObserver observer_;
   DeviceState state_;
@@ -126,7 +135,7 @@ StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
         "the model does not resist the press: place and direction must lead into its surface");
 }
 
-LabRun StabilityLab::run(double stiffness) const {
+LabRun StabilityLab::run(double stiffness, const Progress& progress) const {
   require(stiffness > 0 && std::isfinite(stiffness), "stiffness", stiffness);
   const double mass = settings_.device.mass, period = settings_.device.period;
   const double damping = settings_.device.damping + settings_.device.hand.damping;
@@ -153,7 +162,7 @@ LabRun StabilityLab::run(double stiffness) const {
                                settings.depth * std::sqrt(stiffness / mass);
 
   LabRun result;
-  Bench bench(*model_, settings, stiffness / stiffness_);
+  Bench bench(*model_, settings, stiffness / stiffness_, progress);
   for (long tick = 0; tick < press; ++tick)
     if (!bench.tick(result)) return result;
   bench.kick(kick);
@@ -175,7 +184,7 @@ LabRun StabilityLab::run(double stiffness) const {
   return result;
 }
 
-double StabilityLab::largestStable() const {
+double StabilityLab::largestStable(const Progress& progress) const {
   const SimulatedDeviceSettings& device = settings_.device;
   double stable =
       servedStiffness(device.damping + device.hand.damping, device.period, device.delay);
@@ -183,7 +192,7 @@ double StabilityLab::largestStable() const {
   // The bound is a matter of factors of two for any delay: bracket, then bisect.
   double unstable = stable;
   const double least = std::ldexp(stable, -20), most = std::ldexp(stable, 20);
-  while (!run(stable).stable) {
+  while (!run(stable, progress).stable) {
     unstable = stable;
     stable /= 2;
     if (stable < least) return 0;
@@ -192,10 +201,10 @@ double StabilityLab::largestStable() const {
       stable = unstable;
       unstable *= 2;
       if (unstable > most) return HUGE_VAL;
-    } while (run(unstable).stable);
+    } while (run(unstable, progress).stable);
   while (unstable > (1 + settings_.tolerance) * stable) {
     const double middle = std::sqrt(stable * unstable);
-    (run(middle).stable ? stable : unstable) = middle;
+    (run(middle, progress).stable ? stable : unstable) = middle;
   }
   return std::sqrt(stable * unstable);
 }
@@ -209,13 +218,16 @@ std::vector<ZWidthPoint> zWidth(TouchModel& model, const LabSettings& settings,
   for (double rate : rates)
     for (double damping : dampings)
       for (int delay : delays) {
-        progress.report(points.size() / count, "press");
+        const Progress part = progress.part(points.size() / count, 1);
+        part.report(0, "press");
         LabSettings here = settings;
-        require(rate > 0 && std::isfinite(rate), "rate", rate);
+        if (!(rate >= kLeastRate && rate <= kMostRate))
+          throw std::invalid_argument("the lab's rates must be from 10 to 100000 Hz, not " +
+                                      std::to_string(rate));
         here.device.period = 1 / rate;
         here.device.damping = damping;
         here.device.delay = delay;
-        points.push_back({rate, damping, delay, StabilityLab(model, here).largestStable(),
+        points.push_back({rate, damping, delay, StabilityLab(model, here).largestStable(part),
                           servedStiffness(damping, 1 / rate, delay)});
       }
   return points;

@@ -53,12 +53,14 @@ class StabilityLab {
   double stiffness() const noexcept { return stiffness_; }
 
   /// @param stiffness  that the model is scaled to, N/m.
-  /// @throws std::invalid_argument if it is not positive.
-  LabRun run(double stiffness) const;
+  /// @param progress   reported to now and then; how far it comes is not known beforehand.
+  /// @throws std::invalid_argument if it is not positive; Aborted if `progress` asks for it.
+  LabRun run(double stiffness, const Progress& progress = {}) const;
 
   /// The largest stable stiffness by bisection, to the tolerance; N/m. 0 without damping or where
   /// nothing is stable; infinite if a million times the Colgate bound still is.
-  double largestStable() const;
+  /// @throws Aborted if `progress` asks for it.
+  double largestStable(const Progress& progress = {}) const;
 
  private:
   TouchModel* model_;
@@ -69,7 +71,7 @@ class StabilityLab {
 
 /// Z-width of a model (Colgate & Brown 1994): a point for each rate, damping and delay, the delay
 /// running fastest.
-/// @param rates    Hz.
+/// @param rates    Hz, from 10 to 100000.
 /// @param dampings of the device, N s/m.
 /// @param delays   ticks.
 /// @throws std::invalid_argument as StabilityLab; Aborted if `progress` asks for it.
