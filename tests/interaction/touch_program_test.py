@@ -8,6 +8,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -20,6 +21,7 @@ from support.surfaces import PROGRAM
 from support.touch import PRESS, RATE, REST, STROKE, Touch, block_model, path, write_recording
 from support.window import read_picture
 
+DATA = Path(__file__).resolve().parents[2] / "data"
 WITHOUT_DISPLAY = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
 
 
@@ -96,6 +98,12 @@ class Headless(Program):
         self.run_well("touch", self.model, "--device", f"scripted:{copy}", "--headless", "--seconds",
                       1.7, "--forces", again)
         self.assertEqual(first.read_bytes(), again.read_bytes())
+
+    def test_a_device_that_can_render_no_force_is_told(self):
+        for limits, told in (("0 0 0", True), ("3.3 0 0", False)):
+            printed = self.run_well(*self.scripted(PRESS, limits=limits), "--seconds", REST + 0.4)
+            self.assertIn("sticks", printed)
+            self.assertEqual("not rendered: its device's limits allow no force" in printed, told)
 
     def test_pictures_need_no_display_and_show_the_press(self):
         for name, seconds in (("before.png", 0.1), ("pressed.png", REST + 0.4)):
@@ -286,6 +294,35 @@ class Failures(Program):
         self.run_badly("scene.json", "touch", "--scene", file, "--headless", "--seconds", 1)
         file.write_text(json.dumps(scene))
         self.assertIn("0 N free", self.run_well("touch", "--scene", file, "--headless", "--seconds", 0.1))
+
+
+class Scenes(Program):
+    def test_of_the_data_are_made_by_one_command_and_run(self):
+        scenes = sorted((DATA / "scenes").glob("*.json"))
+        self.assertEqual(len(scenes), 3)
+        for scene in scenes:
+            shutil.copy(scene, self.folder)
+        scene = self.folder / "two_kidneys_hand.json"
+        self.run_badly("kidney.vtp` makes a model of a surface, `python3 data/make_scenes.py` those of "
+                       "Palpate's own scenes", "touch", "--scene", scene, "--plan")
+        made = subprocess.run([sys.executable, DATA / "make_scenes.py", "--program", PROGRAM,
+                               "--folder", self.folder], capture_output=True, text=True)
+        self.assertEqual((made.returncode, made.stdout, made.stderr), (0, "", ""))
+        for file in scenes:
+            self.run_well("touch", "--scene", self.folder / file.name, "--headless", "--seconds", 0.1)
+        forces = self.folder / "forces.csv"
+        printed = self.run_well("touch", "--scene", scene, "--headless", "--seconds", 4, "--forces", forces)
+        self.assertIn("sticks", printed)
+        rendered = np.loadtxt(forces, delimiter=",", skiprows=1)[:, :3]
+        self.assertTrue(0.3 < rendered[-1][1] < 3, rendered[-1])  # the fingers are pushed away
+        self.assertEqual(np.abs(rendered[:1000]).max(), 0)  # before they close
+
+    def test_that_cannot_be_made_say_why(self):
+        made = subprocess.run([sys.executable, DATA / "make_scenes.py", "--program",
+                               self.folder / "none", "--folder", self.folder], capture_output=True,
+                              text=True)
+        self.assertEqual(made.returncode, 1)
+        self.assertTrue(made.stderr.startswith("make_scenes: ") and made.stderr.count("\n") == 1)
 
 
 class Interruption(Program):

@@ -174,6 +174,7 @@ void HapticTouch::Prepare()
   std::vector<std::shared_ptr<const SurfaceMesh>> meshes(this->Described().tools.size());
   this->Change(); // what is left of an attempt that failed
   this->Looks.clear();
+  this->Silent.clear();
   std::vector<ServoTool> hands;
   for (std::size_t t = 0; t < this->Described().tools.size(); ++t)
   {
@@ -185,6 +186,8 @@ void HapticTouch::Prepare()
     ServoTool hand;
     hand.device = this->Open(described);
     hand.mapping = described.mapping;
+    this->Silent.push_back(
+      described.type != DeviceType::Mouse && hand.device->info().largestForce == 0);
     if (described.type == DeviceType::Mouse)
     {
       hand.safety.largestForce = hand.safety.largestTorque = hand.safety.forceSlew =

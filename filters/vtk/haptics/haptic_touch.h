@@ -101,6 +101,7 @@ private:
   LoadedScene Loaded;
   std::string RecordFile;
   std::vector<ToolLook> Looks;
+  std::vector<bool> Silent; ///< whether a tool's device can render no force
   std::shared_ptr<MouseDevice> Pointer;
   ToolPose PointerPose;
   std::shared_ptr<ScriptedDevice> FirstScript;

@@ -69,6 +69,7 @@ std::string HapticTouch::Status() const
     line += contact.touching ? contact.sliding ? " slides" : " sticks" : " free";
     const std::string fault = this->Fault(static_cast<int>(t));
     line += fault.empty() ? "" : " (" + fault + ")";
+    line += this->Silent[t] ? " (not rendered: its device's limits allow no force)" : "";
   }
   const ContactCertificate& certificate = this->Snapshot().contact.certificate;
   line += "  residual " + text("%.0e", certificate.residual) + (certificate.budgetCut ? " cut" : "");

@@ -12,6 +12,7 @@
 
 #include "vtkPolyData.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace palpate
@@ -35,6 +36,17 @@ std::shared_ptr<HapticDevice> openHid(const SceneDevice& device)
     }
   }
   throw std::runtime_error("the HID device is not there: `palpate devices` lists those that are");
+}
+
+/// A model of a scene, whose sentences begin with its file.
+vtkSmartPointer<vtkPolyData> readModel(const std::string& path)
+{
+  if (!std::filesystem::exists(path))
+  {
+    throw std::runtime_error(path + ": there is no such file; `palpate precompute SURFACE " + path +
+      "` makes a model of a surface, `python3 data/make_scenes.py` those of Palpate's own scenes");
+  }
+  return readSurface(path);
 }
 } // namespace
 
@@ -64,7 +76,7 @@ LoadedScene loadScene(const std::string& fileName)
   loaded.Described = readScene(fileName);
   for (const SceneModel& model : loaded.Described.models)
   {
-    const vtkSmartPointer<vtkPolyData> surface = readSurface(model.file);
+    const vtkSmartPointer<vtkPolyData> surface = readModel(model.file);
     loaded.Bodies.push_back(bodyOf(surface));
     if (!loaded.FirstModel)
     {
