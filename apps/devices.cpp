@@ -97,8 +97,8 @@ void addDevices(CLI::App& program) {
       "  \"output\": { \"report\": 2, \"length\": 3, \"force\": [\n"
       "    { \"offset\": 1, \"type\": \"int16\", \"scale\": 1e-3 }, null, null ] },\n"
       "  \"limits\": { \"force\": 3, \"stiffness\": 600 } }");
-  command->callback([path] {
-    if (!path->empty()) return printDescription(*path);
+  command->callback([path, command] {
+    if (command->count("--description") > 0) return printDescription(*path);
     printDevices();
     printBuiltIn();
   });

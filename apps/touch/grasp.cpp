@@ -7,7 +7,9 @@
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -46,6 +48,26 @@ struct Replay {
   int momentsAFrame, frames;
 };
 
+/// @throws std::invalid_argument for a moment that places the hand nowhere.
+DeviceRecording finiteRecording(const std::string& path) {
+  DeviceRecording recording = readDeviceRecording(path);
+  if (std::none_of(recording.moments.begin(), recording.moments.end(),
+                   [](const DeviceMoment& moment) { return moment.isThere; }))
+    throw std::invalid_argument("in '" + path + "' the glove is never there");
+  for (std::size_t i = 0; i < recording.moments.size(); ++i) {
+    const auto& [isThere, state] = recording.moments[i];
+    const ToolPose& pose = state.pose;
+    const bool isPlaced = pose.position.allFinite() &&
+                          std::abs(pose.orientation.norm() - 1) < 1e-3 &&
+                          std::all_of(pose.joints.begin(), pose.joints.begin() + pose.jointCount,
+                                      [](double angle) { return std::isfinite(angle); });
+    if (isThere && !isPlaced)
+      throw std::invalid_argument("moment " + std::to_string(i) + " of '" + path +
+                                  "' holds numbers that are not finite, or no rotation");
+  }
+  return recording;
+}
+
 Replay replayOf(const TouchOptions& options, const SceneBody& body, const GraspApproach& approach,
                 const HandModel& hand) {
   Replay replay;
@@ -53,7 +75,7 @@ Replay replayOf(const TouchOptions& options, const SceneBody& body, const GraspA
   if (options.device == "mouse") {
     replay.trace = graspMotion(body, approach, hand);
   } else if (options.device.rfind("scripted:", 0) == 0) {
-    replay.trace = readDeviceRecording(options.device.substr(9));
+    replay.trace = finiteRecording(options.device.substr(9));
     rate = kRecordingRate;
   } else {
     throw std::invalid_argument("a grasp needs a glove's recording: --device scripted:FILE");
@@ -81,12 +103,16 @@ void lookAt(Window& window, const GraspApproach& approach, const SurfaceMesh& me
 
 void runGrasp(const TouchOptions& options) {
   const auto surface = readSurface(options.model);
+  warnOfUnits(surface);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
   const GraspApproach approach =
       approachTo(body, Eigen::Vector3d(directionOntoFreeSurface(surface).data()));
-  const HandModel hand(options.handLength > 0 ? options.handLength
-                                              : kHandOverModel * approach.extent);
+  const double length =
+      options.handLength > 0 ? options.handLength : kHandOverModel * approach.extent;
+  if (length < 1e-3 * approach.extent || length > 1e3 * approach.extent)
+    throw std::invalid_argument("--hand-length does not fit the model: are both in metres?");
+  const HandModel hand(length);
   Replay replay = replayOf(options, body, approach, hand);
   GloveDevice glove(std::move(replay.trace), hand);
   UnilateralContactSettings settings;
@@ -114,7 +140,7 @@ void runGrasp(const TouchOptions& options) {
     requireUninterrupted(options);
     for (int tick = 0; tick < replay.momentsAFrame; ++tick) {
       const auto begin = Clock::now();
-      glove.read(state);
+      if (!glove.read(state)) continue;  // while it is away the hand stays as it was
       const ContactCertificate certificate = touch.step(&state.pose, &wrench);
       tally.addStep(certificate, secondsSince(begin));
       glove.write(wrench);

@@ -194,6 +194,7 @@ void runLab(const TouchOptions& options) {
   if (options.model.empty())
     throw std::invalid_argument("the lab presses one model: give its file instead of a scene");
   const auto surface = readSurface(options.model);
+  warnOfUnits(surface);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
   Scene scene;
@@ -214,6 +215,8 @@ void runLab(const TouchOptions& options) {
   settings.place = placeOf(*body.mesh, point);
   settings.direction = -body.mesh->triangleNormals().col(point.triangle);
   settings.depth = options.depth > 0 ? options.depth : body.mesh->diagonal() / 100;
+  if (settings.depth > body.mesh->diagonal())
+    throw std::invalid_argument("--depth is more than the model's length: are both in metres?");
   const StabilityLab lab(*session.model(), settings);
   const auto orElse = [](const auto& given, auto standard) {
     return given.empty() ? decltype(given)(standard) : given;

@@ -28,8 +28,16 @@
 
 namespace palpate::app {
 
+constexpr double kLongestModel = 20;  ///< m
+
 void require(bool done, vtkInteractorStyleHaptic* style) {
   if (!done) throw std::runtime_error(style->GetFailureMessage());
+}
+
+void warnOfUnits(vtkPolyData* model) {
+  if (model->GetLength() <= kLongestModel) return;
+  std::cerr << "palpate: warning: the model is " << model->GetLength()
+            << " m long: its points are taken for metres; are they millimetres?\n";
 }
 
 void requireUninterrupted(const TouchOptions& options) {
@@ -76,6 +84,7 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   if (options.rate != 0) require(style->SetServoRate(options.rate), style);
   if (!options.deformation.empty()) style->SetDeformation(deformationMode(options.deformation));
   if (!options.record.empty()) require(style->SetRecordFileName(options.record.c_str()), style);
+  warnOfUnits(style->GetTouchedModel());
 }
 
 void writeForces(vtkInteractorStyleHaptic* style, const std::string& path) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+class vtkPolyData;
+
 namespace palpate::app {
 
 /// What `palpate touch` and `palpate grasp` are asked for.
@@ -42,6 +44,8 @@ constexpr const char* kTouchFunction = "palpate_touch";
 /// @return an empty string, or what went wrong.
 using TouchFunction = std::string (*)(const TouchOptions& options);
 
+/// Says on stderr if a model is so large that its points are hardly metres.
+void warnOfUnits(vtkPolyData* model);
 /// @throws std::runtime_error if the run is to end, before anything is written.
 void requireUninterrupted(const TouchOptions& options);
 

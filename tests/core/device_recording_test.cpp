@@ -135,6 +135,24 @@ TEST(DeviceRecordingFile, CutShortAnywhereIsRefused) {
   }
 }
 
+TEST(DeviceRecordingFile, MayHaveTheLineEndsOfWindows) {
+  const TemporaryPath file(
+      "palpate-device-recording 1\r\nname a b\r\nlimits 1 2 3\r\n"
+      "moments 2\r\naway\r\n7 0 0 0.01 1 0 0 0 0 0\r\n");
+  const DeviceRecording recording = readDeviceRecording(file.path());
+  EXPECT_EQ(recording.info.name, "a b");
+  EXPECT_FALSE(recording.moments[0].isThere);
+  EXPECT_EQ(recording.moments[1].state.sequence, 7u);
+}
+
+TEST(DeviceRecordingFile, OfEndlessLinesOrFoldersIsRefused) {
+  const TemporaryPath file(std::string(1 << 17, 'x'));
+  EXPECT_TRUE(isRefused([&] { readDeviceRecording(file.path()); }, "line 1 of"));
+  EXPECT_TRUE(isRefused([&] { readDeviceRecording(file.path()); }, "the line is too long"));
+  EXPECT_TRUE(isRefused<std::runtime_error>([] { readDeviceRecording(::testing::TempDir()); },
+                                            "is a folder"));
+}
+
 TEST(DeviceRecordingFile, IsWrittenWholeOrNotAtAll) {
   const std::string folder = ::testing::TempDir() + "palpate_no_such_folder/";
   EXPECT_TRUE(isRefused<std::runtime_error>(

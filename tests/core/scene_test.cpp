@@ -327,7 +327,9 @@ TEST(Scenes, FilesAreFoundFromTheScenesFolder) {
   EXPECT_EQ(scene.devices[3].file, folder + "trace.txt");
   EXPECT_TRUE(isRefused<std::runtime_error>([] { readScene("no/such"); },
                                             "the scene 'no/such' cannot be opened"));
-  EXPECT_TRUE(isRefused<std::runtime_error>([&] { readScene(folder); }, "cannot be opened"));
+  EXPECT_TRUE(isRefused<std::runtime_error>([&] { readScene(folder); }, "is a folder"));
+  const TemporaryPath empty("");
+  EXPECT_TRUE(isRefused<std::runtime_error>([&] { readScene(empty.path()); }, "is empty"));
 }
 
 TEST(Scenes, OfTheDataFolderAreRead) {

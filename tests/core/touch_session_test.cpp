@@ -273,6 +273,19 @@ TEST(TouchSessions, PrepareOnlyTheContactThatIsAskedFor) {
   EXPECT_GT(point.greens->counts().gatheredBlocks, 0);
 }
 
+TEST(TouchSessions, RefuseToolsOfAnotherUnit) {
+  const TouchedBody body = touchedSphere(1, true);
+  for (const char* shape : {"\"shape\": \"sphere\", \"radius\": ",
+                            "\"shape\": \"capsule\", \"length\": 1, \"radius\": ",
+                            "\"shape\": \"hand\", \"length\": "}) {
+    for (const char* size : {"1e-300", "1e-5", "1e5"})
+      EXPECT_TRUE(isRefused([&] { Counted(body, shape + std::string(size), ""); },
+                            "does not fit a model of "))
+          << shape << size;
+    EXPECT_NO_THROW(Counted(body, shape + std::string("0.001"), ""));
+  }
+}
+
 TEST(TouchSessions, RefuseWhatTheyCannotHold) {
   const TouchedBody body = touchedSphere(1, true);
   const std::vector<SceneBody> bodies = {{body.greens, body.mesh}};

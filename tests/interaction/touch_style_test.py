@@ -371,13 +371,13 @@ class Settings(Touching):
                   style.GetRigidStiffness(), style.GetServoRate()]
         nan = float("nan")
         for method, sentence, values in (
-                (style.SetFriction, "friction must not be negative", (-1, nan, np.inf)),
-                (style.SetMaskRadius, "radius of a mask must not be negative", (-1, nan)),
-                (style.SetStiffnessScale, "stiffness scale must be positive", (0, -1, nan)),
-                (style.SetRigidStiffness, "rigid stiffness must not be negative", (-1, nan)),
+                (style.SetFriction, "friction must be from 0 to 100", (-1, 101, nan, np.inf)),
+                (style.SetMaskRadius, "radius of a mask must be from 0 to 1e6 m", (-1, 1e300, nan)),
+                (style.SetStiffnessScale, "stiffness scale must be positive", (0, -1, 1e300, nan)),
+                (style.SetRigidStiffness, "rigid stiffness must be from 0 to 1e15 N/m", (-1, 1e300, nan)),
                 (style.SetServoRate, "between 250 and 10000 Hz", (0, 249, 10001, nan)),
                 (style.SetToolToSphere, "radius of a ball must be positive", (0, -1, nan)),
-                (style.RunHeadless, "time to run must not be negative", (-1, nan, np.inf))):
+                (style.RunHeadless, "time to run must be from 0 to 86400 s", (-1, 1e300, nan, np.inf))):
             for value in values:
                 self.refuse(style, sentence, method, value)
         self.assertEqual(before, [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),

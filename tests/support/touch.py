@@ -20,9 +20,9 @@ MODES = {"all": 0, "visible": 1, "contact": 2, "none": 3}
 
 
 @functools.lru_cache(maxsize=None)
-def block_model():
+def block_model(scale=1):
     """Stands on its bottom, E = 10 kPa, nu = 0.3. Shared: do not change it."""
-    surface = cube(6, SIZE)
+    surface = cube(6, scale * SIZE)
     return palpate.precompute(surface, 1e4, 0.3, fixed=points_of(surface)[:, 2] == 0)
 
 

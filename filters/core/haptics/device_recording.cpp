@@ -4,6 +4,7 @@
 #include "haptics/device_recording.h"
 
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -14,6 +15,7 @@ namespace palpate {
 namespace {
 
 constexpr const char* kFirstLine = "palpate-device-recording 1";
+constexpr std::streamsize kLongestLine = 1 << 16;
 
 /// The lines of a recording and the words of the line under way.
 class LineReader {
@@ -26,7 +28,13 @@ class LineReader {
 
   void next(const char* expected) {
     ++number_;
-    if (!std::getline(file_, line_)) refuse(std::string("the file ends before ") + expected);
+    line_.resize(kLongestLine);
+    file_.getline(line_.data(), kLongestLine);
+    const auto length = static_cast<std::size_t>(file_.gcount());
+    if (length + 1 == kLongestLine && file_.fail()) refuse("the line is too long");
+    if (!file_) refuse(std::string("the file ends before ") + expected);
+    line_.resize(length - (file_.eof() ? 0 : 1));
+    if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     at_ = 0;
   }
 
@@ -141,6 +149,8 @@ void writeTo(std::ostream& file, const DeviceRecording& recording) {
 DeviceRecording readDeviceRecording(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("the recording '" + path + "' cannot be opened");
+  if (std::filesystem::is_directory(path))
+    throw std::runtime_error("the recording '" + path + "' is a folder");
   LineReader reader(file, path);
   DeviceRecording recording;
   reader.next("its first line");

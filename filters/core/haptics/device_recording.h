@@ -32,6 +32,7 @@ struct DeviceRecording {
 ///     7 0 0 0.01 1 0 0 0 0 0          sequence, position, orientation (w x y z), buttons,
 ///     away                            number of joints, their angles; or that it was not there
 ///
+/// Lines may end as on Windows.
 /// @throws std::runtime_error if the file cannot be opened, std::invalid_argument with the line's
 ///         number if it holds anything else.
 DeviceRecording readDeviceRecording(const std::string& path);

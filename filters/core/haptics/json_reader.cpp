@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <set>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongestShown = 40;
+constexpr std::size_t kLongestText = std::size_t{16} << 20;
 
 /// Letters to insert, drop or change to make one word of another (V. Levenshtein, 1966).
 std::size_t wordDistance(const std::string& a, const std::string& b) {
@@ -89,11 +91,17 @@ Json parseJson(const std::string& text, const std::string& subject) {
 }
 
 std::string readTextFile(const std::string& path, const std::string& subject) {
+  const std::string named = subject + " '" + path + "' ";
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || !text) throw std::runtime_error(subject + " '" + path + "' cannot be opened");
-  return text.str();
+  if (!file) throw std::runtime_error(named + "cannot be opened");
+  if (std::filesystem::is_directory(path)) throw std::runtime_error(named + "is a folder");
+  std::string text(kLongestText + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) throw std::runtime_error(named + "cannot be read");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.empty()) throw std::runtime_error(named + "is empty");
+  if (text.size() > kLongestText) throw std::runtime_error(named + "is longer than 16 MiB");
+  return text;
 }
 
 JsonSection::JsonSection(const Json& value, std::string name, const std::string& subject)

@@ -28,7 +28,7 @@ std::string shown(const Json& value);
 ///         and for objects or lists within more than 32 others.
 Json parseJson(const std::string& text, const std::string& subject);
 
-/// @throws std::runtime_error if the file cannot be opened.
+/// @throws std::runtime_error if the file cannot be read, is empty or is longer than 16 MiB.
 std::string readTextFile(const std::string& path, const std::string& subject);
 
 /// An object whose keys are all asked for in the end.

@@ -3,6 +3,8 @@
 
 #include "haptics/touch_session.h"
 
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +18,12 @@
 namespace palpate {
 namespace {
 
+std::string text(double value) {
+  std::ostringstream shortened;
+  shortened << std::setprecision(4) << value;
+  return shortened.str();
+}
+
 void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
   if (bodies.size() != scene.models.size())
     throw std::invalid_argument("the scene has " + std::to_string(scene.models.size()) +
@@ -28,13 +36,35 @@ void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
 
 /// As it hangs under its weight. In linear elasticity, the Green's functions of the body as it was
 /// given hold there too.
+/// @throws std::invalid_argument if it sags until its surface is none.
 std::shared_ptr<const SurfaceMesh> hung(const SceneBody& body, const SceneModel& model,
                                         const Eigen::Vector3d& gravity) {
   const Eigen::Vector3d weight = model.density * (model.pose.orientation.conjugate() * gravity);
-  return std::make_shared<const SurfaceMesh>(
-      body.mesh->points() +
-          gravityDisplacement(*body.greens, *body.mesh, body.smoothPatches, weight),
-      body.mesh->triangles());
+  const Eigen::Matrix3Xd sag =
+      gravityDisplacement(*body.greens, *body.mesh, body.smoothPatches, weight);
+  try {
+    return std::make_shared<const SurfaceMesh>(body.mesh->points() + sag, body.mesh->triangles());
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument("under gravity the model sags by " +
+                                text(sag.colwise().norm().maxCoeff()) +
+                                " m and folds over: lower gravity or density, or stiffen it");
+  }
+}
+
+/// A tool that is smaller or larger by this is hardly meant.
+void requireToFit(double size, const SceneBody& body) {
+  constexpr double least = 1e-4, most = 1e3;
+  const double diagonal = body.mesh->diagonal();
+  if (size >= least * diagonal && size <= most * diagonal) return;
+  throw std::invalid_argument("a tool of " + text(size) + " m does not fit a model of " +
+                              text(diagonal) + " m: are both in metres?");
+}
+
+/// Radius, or the length of a hand; as large as the body for tools that have no size.
+double sizeOf(const SceneTool& tool, const SurfaceMesh* mesh, const SceneBody& body) {
+  if (tool.shape == ToolShape::Sphere || tool.shape == ToolShape::Capsule) return tool.radius;
+  if (tool.shape == ToolShape::Hand) return tool.length;
+  return mesh ? mesh->diagonal() : body.mesh->diagonal();
 }
 
 std::shared_ptr<const TouchTool> toolOf(const SceneTool& tool,
@@ -84,8 +114,11 @@ std::shared_ptr<TouchModel> toolTouch(
     const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes) {
   const SceneEffects& effects = scene.effects;
   std::vector<std::shared_ptr<const TouchTool>> tools;
-  for (std::size_t i = 0; i < scene.tools.size(); ++i)
-    tools.push_back(toolOf(scene.tools[i], i < toolMeshes.size() ? toolMeshes[i] : nullptr));
+  for (std::size_t i = 0; i < scene.tools.size(); ++i) {
+    const auto mesh = i < toolMeshes.size() ? toolMeshes[i] : nullptr;
+    requireToFit(sizeOf(scene.tools[i], mesh.get(), bodies[0]), bodies[0]);
+    tools.push_back(toolOf(scene.tools[i], mesh));
+  }
   std::vector<ElasticPartner> partners;
   for (std::size_t i = 1; i < bodies.size(); ++i)
     partners.push_back(

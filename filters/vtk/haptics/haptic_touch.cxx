@@ -18,6 +18,7 @@ namespace
 constexpr double MouseSpeed = 3;           ///< diagonals of the body a second
 constexpr double RecordedSeconds = 120;    ///< at most
 constexpr double Unlimited = 1e9;          ///< a mouse hurts nobody
+constexpr double Day = 86400;              ///< s
 } // namespace
 
 HapticTouch::HapticTouch()
@@ -224,9 +225,10 @@ void HapticTouch::Stop()
 
 void HapticTouch::RunHeadless(double seconds)
 {
-  if (!(seconds >= 0) || !std::isfinite(seconds))
+  if (!(seconds >= 0 && seconds <= Day))
   {
-    throw std::invalid_argument("the time to run must not be negative");
+    throw std::invalid_argument(
+      "the time to run must be from 0 to 86400 s, not " + std::to_string(seconds));
   }
   this->Prepare();
   this->Loop->runHeadless(std::llround(seconds * this->Described().servo.rate));

@@ -6,18 +6,32 @@
 #include "haptics/point_touch.h"
 #include "haptics/tool_touch.h"
 
-#include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 // What takes effect at once.
 namespace palpate
 {
+namespace
+{
+constexpr double LargestFriction = 100, LargestRadius = 1e6, LargestScale = 1e9;
+constexpr double LargestStiffness = 1e15;
+
+/// @param range  what the number must be.
+void requireRange(bool isInRange, const std::string& range, double value)
+{
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", value);
+  if (!isInRange)
+  {
+    throw std::invalid_argument(range + ", not " + number);
+  }
+}
+} // namespace
+
 void HapticTouch::SetFriction(double mu)
 {
-  if (!(mu >= 0) || !std::isfinite(mu))
-  {
-    throw std::invalid_argument("friction must not be negative, as " + std::to_string(mu) + " is");
-  }
+  requireRange(mu >= 0 && mu <= LargestFriction, "friction must be from 0 to 100", mu);
   this->Described().effects.friction = mu;
   if (!this->Session)
   {
@@ -45,11 +59,8 @@ std::shared_ptr<const SurfaceStiffness> HapticTouch::NewStiffness() const
 
 void HapticTouch::SetMaskRadius(double radius)
 {
-  if (!(radius >= 0) || !std::isfinite(radius))
-  {
-    throw std::invalid_argument(
-      "the radius of a mask must not be negative, as " + std::to_string(radius) + " is");
-  }
+  requireRange(radius >= 0 && radius <= LargestRadius,
+    "the radius of a mask must be from 0 to 1e6 m", radius);
   this->Described().effects.maskRadius = radius;
   this->Described().effects.maskRadiusEdges = 0;
   if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
@@ -60,10 +71,8 @@ void HapticTouch::SetMaskRadius(double radius)
 
 void HapticTouch::SetStiffnessScale(double scale)
 {
-  if (!(scale > 0) || !std::isfinite(scale))
-  {
-    throw std::invalid_argument("a stiffness scale must be positive, not " + std::to_string(scale));
-  }
+  requireRange(scale > 0 && scale <= LargestScale,
+    "a stiffness scale must be positive and at most 1e9", scale);
   this->Described().effects.stiffnessScale = scale;
   if (!this->Session)
   {
@@ -84,11 +93,8 @@ void HapticTouch::SetStiffnessScale(double scale)
 
 void HapticTouch::SetRigidStiffness(double stiffness)
 {
-  if (!(stiffness >= 0) || !std::isfinite(stiffness))
-  {
-    throw std::invalid_argument(
-      "the rigid stiffness must not be negative, as " + std::to_string(stiffness) + " is");
-  }
+  requireRange(stiffness >= 0 && stiffness <= LargestStiffness,
+    "the rigid stiffness must be from 0 to 1e15 N/m", stiffness);
   this->Described().effects.stiffnessLimit = stiffness;
   if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
   {

@@ -77,7 +77,14 @@ LoadedScene loadScene(const std::string& fileName)
   for (const SceneModel& model : loaded.Described.models)
   {
     const vtkSmartPointer<vtkPolyData> surface = readModel(model.file);
-    loaded.Bodies.push_back(bodyOf(surface));
+    try
+    {
+      loaded.Bodies.push_back(bodyOf(surface));
+    }
+    catch (const std::exception& failure)
+    {
+      throw std::runtime_error(model.file + ": " + failure.what());
+    }
     if (!loaded.FirstModel)
     {
       loaded.FirstModel = surface;
