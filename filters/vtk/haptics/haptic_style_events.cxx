@@ -25,6 +25,10 @@ constexpr double FrictionStep = 0.05;
 
 void vtkInteractorStyleHaptic::OnLeftButtonDown()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   Touch& touch = *this->Internals;
   const int* at = this->Interactor->GetEventPosition();
   this->FindPokedRenderer(at[0], at[1]);
@@ -49,10 +53,15 @@ void vtkInteractorStyleHaptic::OnLeftButtonDown()
   this->GrabFocus(this->EventCallbackCommand);
 }
 
-/// Puts the probe below the pointer, at the drag's depth behind the plane through its beginning.
+/// Puts the probe below the pointer, at the drag's depth behind the plane through its beginning. Nothing if
+/// its mouse or its renderer is gone by now.
 void vtkInteractorStyleHaptic::Drag()
 {
   Touch& touch = *this->Internals;
+  if (!touch.Session.HasMouse() || !this->CurrentRenderer)
+  {
+    return;
+  }
   const int* at = this->Interactor->GetEventPosition();
   double display[3], world[4];
   this->ComputeWorldToDisplay(touch.Anchor.x(), touch.Anchor.y(), touch.Anchor.z(), display);
@@ -68,6 +77,10 @@ void vtkInteractorStyleHaptic::Drag()
 
 void vtkInteractorStyleHaptic::OnMouseMove()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   if (this->Internals->Dragging)
   {
     this->Drag();
@@ -78,6 +91,10 @@ void vtkInteractorStyleHaptic::OnMouseMove()
 
 void vtkInteractorStyleHaptic::OnLeftButtonUp()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   Touch& touch = *this->Internals;
   if (!touch.Dragging)
   {
@@ -92,6 +109,10 @@ void vtkInteractorStyleHaptic::OnLeftButtonUp()
 
 void vtkInteractorStyleHaptic::OnRightButtonDown()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   this->FindPokedRenderer(
     this->Interactor->GetEventPosition()[0], this->Interactor->GetEventPosition()[1]);
   if (this->CurrentRenderer)
@@ -103,6 +124,10 @@ void vtkInteractorStyleHaptic::OnRightButtonDown()
 
 void vtkInteractorStyleHaptic::OnRightButtonUp()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   if (this->State == VTKIS_ROTATE)
   {
     this->EndRotate();
@@ -118,16 +143,28 @@ void vtkInteractorStyleHaptic::TurnWheel(double notches)
 
 void vtkInteractorStyleHaptic::OnMouseWheelForward()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   this->Internals->Dragging ? this->TurnWheel(1) : this->Superclass::OnMouseWheelForward();
 }
 
 void vtkInteractorStyleHaptic::OnMouseWheelBackward()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   this->Internals->Dragging ? this->TurnWheel(-1) : this->Superclass::OnMouseWheelBackward();
 }
 
 void vtkInteractorStyleHaptic::OnChar()
 {
+  if (!this->Interactor)
+  {
+    return;
+  }
   Touch& touch = *this->Internals;
   if (!touch.Shown)
   {

@@ -98,6 +98,10 @@ vtkPolyData* vtkInteractorStyleHaptic::GetDeformedSurface(int body)
 
 void vtkInteractorStyleHaptic::GetForceTrace(vtkDoubleArray* trace)
 {
+  if (!trace)
+  {
+    return;
+  }
   const auto wrenches = this->Internals->Session.ForceTrace();
   trace->SetNumberOfComponents(6);
   trace->SetNumberOfTuples(static_cast<vtkIdType>(wrenches.size()));

@@ -13,8 +13,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
+
+namespace
+{
+double clamped(double value, double least, double most, const char* what)
+{
+  if (std::isnan(value))
+  {
+    throw std::invalid_argument(std::string(what) + " must be a number");
+  }
+  return std::clamp(value, least, most);
+}
+}
 
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   : Internals(new Touch)
@@ -127,6 +140,10 @@ bool vtkInteractorStyleHaptic::SetDeviceToHid(int vendor, int product)
   return this->Try(
     [&]
     {
+      if (std::min(vendor, product) < 0 || std::max(vendor, product) > 0xffff)
+      {
+        throw std::invalid_argument("a HID device's numbers are from 0 to 65535");
+      }
       palpate::SceneDevice device;
       device.type = palpate::DeviceType::Hid;
       device.vendor = static_cast<std::uint16_t>(vendor);
@@ -197,6 +214,26 @@ double vtkInteractorStyleHaptic::GetServoRate()
   return this->Internals->Session.Scene().servo.rate;
 }
 
+bool vtkInteractorStyleHaptic::SetPressDepth(double depth)
+{
+  return this->Try(
+    [&]
+    {
+      this->PressDepth = clamped(depth, 0, 1, "the depth of a press");
+      this->Modified();
+    });
+}
+
+bool vtkInteractorStyleHaptic::SetFrameRate(double rate)
+{
+  return this->Try(
+    [&]
+    {
+      this->FrameRate = clamped(rate, 1, 240, "the rate of frames");
+      this->Modified();
+    });
+}
+
 bool vtkInteractorStyleHaptic::SetRecordFileName(const char* fileName)
 {
   return this->Try([&] { this->Internals->Session.SetRecordFile(fileName ? fileName : ""); });
@@ -207,6 +244,7 @@ void vtkInteractorStyleHaptic::SetInteractor(vtkRenderWindowInteractor* interact
   if (!interactor)
   {
     this->ShowIn(nullptr);
+    this->Internals->Dragging = false;
   }
   this->Superclass::SetInteractor(interactor);
 }
@@ -326,7 +364,9 @@ void vtkInteractorStyleHaptic::Update()
 void vtkInteractorStyleHaptic::Announce()
 {
   Touch& touch = *this->Internals;
-  for (std::size_t tool = 0; tool < touch.Touched.size(); ++tool)
+  // An observer may load another scene.
+  for (std::size_t tool = 0; tool < std::min(touch.Touched.size(),
+         touch.Session.Snapshot().contact.tools.size()); ++tool)
   {
     const bool touches = touch.Session.Snapshot().contact.tools[tool].touching;
     const std::string fault = touch.Session.Fault(static_cast<int>(tool));

@@ -145,17 +145,17 @@ public:
 
   ///@{
   /**
-   * How deep the mouse presses at first, in diagonals of the body (default 0.02).
+   * How deep the mouse presses at first, in diagonals of the body, 0 to 1 (default 0.02).
    */
-  vtkSetClampMacro(PressDepth, double, 0.0, 1.0);
+  bool SetPressDepth(double depth);
   vtkGetMacro(PressDepth, double);
   ///@}
 
   ///@{
   /**
-   * Frames a second that a running style asks of the interactor (default 60).
+   * Frames a second that a running style asks of the interactor, 1 to 240 (default 60).
    */
-  vtkSetClampMacro(FrameRate, double, 1.0, 240.0);
+  bool SetFrameRate(double rate);
   vtkGetMacro(FrameRate, double);
   ///@}
 
@@ -179,7 +179,7 @@ public:
 
   /**
    * Ticks on virtual time instead, from where the last call ended, as fast as they compute: with scripted
-   * or simulated devices the same each time, bit for bit. Then updates.
+   * or simulated devices the same each time, bit for bit. At most a day. Then updates.
    */
   bool RunHeadless(double seconds);
 
