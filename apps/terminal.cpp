@@ -48,6 +48,7 @@ void requireWritable(CLI::Option* option, const std::string& what, const std::st
   const auto complaint = [what, ending](const std::string& name) -> std::string {
     const std::filesystem::path path = name,
                                 folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (name.empty()) return "the name of a file is missing";
     if (!ending.empty() && CLI::detail::to_lower(path.extension().string()) != ending)
       return what + " are written as " + ending + ": choose a name that ends so, not " + name;
     std::error_code unknown;
@@ -90,6 +91,7 @@ void catchInterrupts() {
   action.sa_handler = [](int) { interrupted = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure like others
 }
 
 bool isInterrupted() {

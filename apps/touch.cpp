@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
@@ -28,10 +29,16 @@ void run(TouchOptions& options) {
   if (!failure.empty()) throw std::runtime_error(failure);
 }
 
-/// CLI11's own checks let NaN pass.
+/// CLI11's own checks let NaN pass, and take an empty text for zero.
+double numberIn(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return text.empty() || *end != '\0' ? std::nan("") : value;
+}
+
 void requireBetween(CLI::Option* option, double least, double most) {
   const auto complaint = [least, most](const std::string& text) -> std::string {
-    const double value = std::strtod(text.c_str(), nullptr);
+    const double value = numberIn(text);
     if (value >= least && value <= most) return {};
     return "must be a number from " + number(least, 6) + " to " + number(most, 6) + ", not " + text;
   };
@@ -40,7 +47,7 @@ void requireBetween(CLI::Option* option, double least, double most) {
 
 void requirePositive(CLI::Option* option, double most) {
   const auto complaint = [most](const std::string& text) -> std::string {
-    const double value = std::strtod(text.c_str(), nullptr);
+    const double value = numberIn(text);
     if (value > 0 && value <= most) return {};
     return "must be a positive number of at most " + number(most, 6) + ", not " + text;
   };
@@ -92,19 +99,22 @@ void addDeviceOptions(CLI::App& command, TouchOptions& options) {
 }
 
 void addContactOptions(CLI::App& command, TouchOptions& options) {
-  requirePositive(command.add_option("--tool-radius", options.toolRadius,
-                                     "Touch with a ball of this radius instead of a point"),
-                  kFarthest);
+  CLI::Option* ball = command.add_option("--tool-radius", options.toolRadius,
+                                         "Touch with a ball of this radius instead of a point");
+  requirePositive(ball, kFarthest);
   requireBetween(command.add_option("--friction", options.friction,
                                     "Coulomb's coefficient, up to 100; 0.3 by default"),
                  0, kLargestFriction);
-  requireBetween(command.add_option("--radius", options.maskRadius,
-                                    "Radius of a point's pressure mask; two mean edges by default"),
-                 0, kFarthest);
-  requireBetween(command.add_option("--rigid-stiffness", options.stiffnessLimit,
-                                    "Largest Frobenius norm of the stiffness matrix that a point "
-                                    "shows, N/m; 0 for the stiffest free vertex"),
-                 0, 1e15);
+  CLI::Option* mask =
+      command.add_option("--radius", options.maskRadius,
+                         "Radius of a point's pressure mask; two mean edges by default");
+  requireBetween(mask, 0, kFarthest);
+  CLI::Option* stiffness =
+      command.add_option("--rigid-stiffness", options.stiffnessLimit,
+                         "Largest Frobenius norm of the stiffness matrix that a point shows, N/m; "
+                         "0 for the stiffest free vertex");
+  requireBetween(stiffness, 0, 1e15);
+  ball->excludes(mask)->excludes(stiffness);
   command
       .add_option("--deformation", options.deformation,
                   "Whose displacements are computed: all, visible, contact or none")

@@ -92,6 +92,10 @@ void requireSensible(const TouchOptions& options) {
     throw std::invalid_argument(
         "--forces tells the forces on a recording that is replayed: add --device scripted:FILE, "
         "which --record writes");
+  const bool isOfPoint = options.maskRadius >= 0 || options.stiffnessLimit >= 0;
+  if (isOfPoint && scene && !scene->isOfPoints())
+    throw std::invalid_argument(
+        "--radius and --rigid-stiffness are of points, but the scene's tools have a shape");
   requireDistinctFiles(options, scene);
 }
 

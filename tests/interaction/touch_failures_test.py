@@ -51,6 +51,11 @@ class Failures(Program):
                 self.run_badly(f"{option}: must be a number {limits}, not {value}", *touch, option,
                                value)
         self.run_badly("--rate: must be a number from 250", *touch, "--rate", 0)
+        self.run_badly("--friction: must be a number from 0 to 100, not ", *touch, "--friction", "")
+        for option in ("--radius", "--rigid-stiffness"):
+            self.run_badly("excludes", *touch, option, 1, "--tool-radius", 0.01)
+        for option in ("--record", "--forces", "--image"):
+            self.run_badly("the name of a file is missing", *touch, option, "")
         for value in (-1, 0, "nan", "inf"):
             self.run_badly("--tool-radius: must be a positive number of at most 1e+06", *touch,
                            "--tool-radius", value)
@@ -76,6 +81,15 @@ class Failures(Program):
         bare = self.folder / "bare.vtp"
         palpate.write(palpate.read(palpate.example("kidney")), bare)
         self.run_badly("carries no Green's functions", "touch", bare, "--plan")
+
+    def test_of_files_that_may_not_grow_leave_nothing(self):
+        limited = ("sh", "-c", f'ulimit -f 1; exec "{PROGRAM}" "$@"', "palpate")
+        arguments = [str(x) for x in (*self.scripted(PRESS), "--seconds", 1, "--forces",
+                                      self.folder / "a.csv")]
+        ran = subprocess.run([*limited, *arguments], capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("a.csv cannot be written", ran.stderr)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["motion.txt"])
 
     def test_are_told_before_a_file_is_written_over_or_twice(self):
         touch = (*self.scripted(PRESS), "--seconds", 0.1)
@@ -114,6 +128,10 @@ class Failures(Program):
                 ("servo.rate", {"servo": {"rate": 20000}}), ("gravity", {"gravity": 1})):
             file.write_text(json.dumps({**scene, **changed}))
             self.run_badly(key, "touch", "--scene", file, "--headless", "--seconds", 1)
+        ball = {"tools": [{"shape": "sphere", "radius": 0.01, "device": "m"}]}
+        file.write_text(json.dumps({**scene, **ball}))
+        self.run_badly("but the scene's tools have a shape", "touch", "--scene", file, "--headless",
+                       "--seconds", 1, "--radius", 0.01)
         file.write_text("{")
         self.run_badly("scene.json", "touch", "--scene", file, "--headless", "--seconds", 1)
         file.write_text(json.dumps(scene))
