@@ -21,6 +21,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iomanip>
@@ -104,7 +105,8 @@ void printRow(const std::string& label, const std::string& value) {
 }
 
 void requirePrinted() {
-  if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written to");
+  if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw std::runtime_error("standard output cannot be written to");
 }
 
 std::string number(double value, int digits) {

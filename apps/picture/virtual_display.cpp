@@ -20,12 +20,6 @@ namespace {
 
 constexpr int kStartMilliseconds = 20000;
 
-bool hasDisplay() {
-  Display* display = XOpenDisplay(nullptr);
-  if (display) XCloseDisplay(display);
-  return display != nullptr;
-}
-
 /// A process group of its own: Ctrl-C is the program's, which still needs the server to end well.
 [[noreturn]] void becomeServer(int displayNumberPipe) {
   setpgid(0, 0);
@@ -56,6 +50,12 @@ void stop(int process) {
 }
 
 }  // namespace
+
+bool hasDisplay() {
+  Display* display = XOpenDisplay(nullptr);
+  if (display) XCloseDisplay(display);
+  return display != nullptr;
+}
 
 VirtualDisplay::VirtualDisplay() {
   if (hasDisplay()) return;

@@ -5,6 +5,9 @@
 
 namespace palpate::app {
 
+/// Whether DISPLAY names one that lets windows be opened.
+bool hasDisplay();
+
 /// An X display to draw on: the user's where there is one, else an Xvfb of our own that ends with
 /// this object.
 class VirtualDisplay {

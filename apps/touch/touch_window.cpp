@@ -17,7 +17,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -114,11 +113,6 @@ void printState(vtkInteractorStyleHaptic* style) {
   std::cout << style->GetTimingTable() << std::flush;
 }
 
-bool hasDisplay() {
-  const char* display = std::getenv("DISPLAY");
-  return display && *display;
-}
-
 /// In pieces, between which it can be interrupted.
 void tickThrough(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   const double rate = style->GetServoRate();
@@ -178,7 +172,7 @@ void runWindow(const TouchOptions& options) {
   if (options.headless) return runHeadless(options);
   if (!hasDisplay())
     throw std::runtime_error(
-        "there is no display for a window: set DISPLAY, or run with --headless --seconds N");
+        "there is no display for a window: set DISPLAY to one, or run with --headless --seconds N");
   Window window(false);
   vtkNew<vtkInteractorStyleHaptic> style;
   silence(style);

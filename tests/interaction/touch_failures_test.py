@@ -25,9 +25,20 @@ DATA = Path(__file__).resolve().parents[2] / "data"
 
 class Failures(Program):
     def test_without_a_display_are_one_sentence(self):
-        status = self.run_badly("there is no display for a window: set DISPLAY, or run with --headless",
-                                "touch", self.model)
-        self.assertEqual(status, 1)
+        for display in ({}, {"DISPLAY": ""}, {"DISPLAY": ":4321"}, {"DISPLAY": "nonsense"}):
+            status = self.run_badly("there is no display for a window: set DISPLAY to one, or run with "
+                                    "--headless", "touch", self.model, env={**WITHOUT_DISPLAY, **display})
+            self.assertEqual(status, 1)
+
+    def test_to_print_are_told(self):
+        for command in (("grasp", self.model, "--frames", 1), ("touch", self.model, "--plan"),
+                        ("touch", self.model, "--headless", "--seconds", 0.1),
+                        ("touch", self.model, "--lab", "--rates", 1000, "--dampings", 1, "--delays", 0)):
+            with open("/dev/full", "w") as full:
+                ran = subprocess.run([PROGRAM, *map(str, command)], stdout=full, text=True,
+                                     stderr=subprocess.PIPE, env=WITHOUT_DISPLAY)
+            self.assertEqual((ran.returncode, ran.stderr),
+                             (1, "palpate: standard output cannot be written to\n"))
 
     def test_of_devices_name_them(self):
         touch = ("touch", self.model, "--headless", "--seconds", 1, "--device")
