@@ -235,7 +235,7 @@ class Failures(Program):
         model = self.model()
         for bytes_allowed, arguments in ((30000, ("--image", self.folder / "a.png")),  # Xvfb's files
                                          (4000, (self.folder / "a.vtp",))):
-            self.run_badly("is the disk full?", "stiffness", model, *arguments, preexec_fn=lambda:
+            self.run_badly("cannot be written", "stiffness", model, *arguments, preexec_fn=lambda:
                            resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_allowed,) * 2),
                            restore_signals=False)  # Python ignores SIGXFSZ
 
