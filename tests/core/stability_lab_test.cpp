@@ -182,7 +182,8 @@ TEST_F(StabilityLabAtAWall, RefusesWhatItCannotPress) {
   EXPECT_TRUE(with([](auto& s) { s.place[1] = NAN; }, "the lab's place"));
   EXPECT_TRUE(with([](auto& s) { s.place = {0, 0, 1}; }, "the model does not resist the press"));
   EXPECT_TRUE(with([](auto& s) { s.device.mass = -1; }, "the simulated device's mass"));
-  EXPECT_TRUE(isRefused([&] { zWidth(wall_, {}, {0}, {1}, {0}); }, "the lab's rates must be from 10 to 100000 Hz, not 0"));
+  EXPECT_TRUE(isRefused([&] { zWidth(wall_, {}, {0}, {1}, {0}); },
+                        "the lab's rates must be from 10 to 100000 Hz, not 0"));
   EXPECT_TRUE(isRefused([&] { lab().run(0); }, "the lab's stiffness is out of range: 0"));
   VirtualWall two(1, Vector3d::Zero(), Vector3d::UnitZ(), 2);
   EXPECT_TRUE(isRefused([&] { StabilityLab(two, {}); }, "number of tools is out of range: 2"));
