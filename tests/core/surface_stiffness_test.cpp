@@ -62,6 +62,13 @@ class SurfaceStiffnessOfASphere : public testing::Test {
             rigidStiffness};
   }
 
+  static SurfaceStiffness byTheMean(const TouchedBody& body, MaskShape shape, double radius) {
+    return {body.greens,
+            body.mesh,
+            PressureMasks(*body.mesh, body.greens->info().conditions, shape, radius),
+            {0, DisplacementMeasure::Mean}};
+  }
+
   /// B = sum over j of rho_j Xi_ij.
   static Eigen::Matrix3d compliance(const TouchedBody& body, int vertex, const VertexMask& mask) {
     Eigen::MatrixXd blocks(3, 3 * mask.nodes.size());
@@ -101,6 +108,53 @@ TEST_F(SurfaceStiffnessOfASphere, IsTheInverseOfTheNearestSymmetricCompliance) {
         }
       }
     }
+}
+
+TEST_F(SurfaceStiffnessOfASphere, OfTheMeanDisplacementNeedsNoSymmetrising) {
+  // Reciprocal Green's functions: K is the inverse of the mask's own compliance, as it stands.
+  for (MaskShape shape : {MaskShape::Linear, MaskShape::Hertzian})
+    for (double radius : {0.0, 0.4, 0.8}) {
+      const SurfaceStiffness stiffness = byTheMean(*reciprocal_, shape, radius);
+      EXPECT_EQ(stiffness.measure(), DisplacementMeasure::Mean);
+      for (int v : reciprocal_->greens->info().conditions.freeNodes()) {
+        EXPECT_LE(stiffness.asymmetry(v), 1e-13);
+        EXPECT_FALSE(stiffness.isLimited(v));
+        const Eigen::Matrix3d m = meanCompliance(*reciprocal_->greens, stiffness.mask(v));
+        EXPECT_LE((m * stiffness.elastic(v) - Eigen::Matrix3d::Identity()).norm(), 1e-11);
+      }
+    }
+}
+
+TEST_F(SurfaceStiffnessOfASphere, OfTheMeanDisplacementIsTwiceTheEnergyOfTheBody) {
+  // Half of u K u is what the mask's tractions do on the surface's displacements, all of them.
+  const SurfaceStiffness stiffness = byTheMean(*reciprocal_, MaskShape::Linear, 0.6);
+  for (int v : reciprocal_->greens->info().conditions.freeNodes()) {
+    const Eigen::Vector3d force = stiffness.elastic(v) * randomDirection(random_);
+    Eigen::Matrix3Xd given = Eigen::Matrix3Xd::Zero(3, reciprocal_->mesh->vertexCount());
+    const VertexMask& mask = stiffness.mask(v);
+    for (std::size_t j = 0; j < mask.nodes.size(); ++j)
+      given.col(mask.nodes[j]) = mask.density[j] * force;
+    const Eigen::Matrix3Xd moved = solveReferenceProblem(*reciprocal_->greens, given);
+    double work = 0;
+    for (int node : mask.nodes)
+      work += reciprocal_->mesh->vertexAreas()[node] * given.col(node).dot(moved.col(node));
+    EXPECT_NEAR(force.dot(stiffness.elastic(v).inverse() * force) / work, 1, 1e-11);
+  }
+}
+
+TEST_F(SurfaceStiffnessOfASphere, OfOneVertexIsTheSameByEitherMeasure) {
+  const SurfaceStiffness own = stiffnessOf(*reciprocal_, 0);
+  const SurfaceStiffness mean = byTheMean(*reciprocal_, MaskShape::Linear, 0);
+  for (int v = 0; v < reciprocal_->mesh->vertexCount(); ++v)
+    EXPECT_LE(relativeDifference(mean.elastic(v), own.elastic(v)), 1e-12);
+}
+
+TEST_F(SurfaceStiffnessOfASphere, OfTheMeanKeepsItsMeasureWhenItsModulusChanges) {
+  const SurfaceStiffness one = byTheMean(*reciprocal_, MaskShape::Linear, 0.6);
+  const auto stiffer = one.withYoungsModulus(25)->withRigidStiffness(3);
+  EXPECT_EQ(stiffer->measure(), DisplacementMeasure::Mean);
+  for (int v : reciprocal_->greens->info().conditions.freeNodes())
+    EXPECT_LE(relativeDifference(stiffer->elastic(v), 10 * one.elastic(v)), kRounding);
 }
 
 TEST_F(SurfaceStiffnessOfASphere, IsSymmetricPositiveDefiniteEverywhere) {

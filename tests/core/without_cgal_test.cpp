@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/pressure_mask.h"
+#include "mesh/geodesic_distance.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/polygon_file.h"
 #include "mesh/repair.h"
@@ -19,6 +21,17 @@ TEST(WithoutCgal, RepairAndOffFilesSayWhatIsMissing) {
             "repair needs CGAL, which this build of Palpate was made without");
   EXPECT_EQ(refusal<std::runtime_error>([] { readOffFile("any.off"); }),
             "OFF files need CGAL, which this build of Palpate was made without");
+}
+
+TEST(WithoutCgal, MasksAlongTheSurfaceSayWhatIsMissing) {
+  const auto mesh = icosphere(0).mesh();
+  const BoundaryConditions conditions(std::vector<unsigned char>(12, 0));
+  EXPECT_EQ(
+      refusal<std::runtime_error>(
+          [&] { PressureMasks(*mesh, conditions, MaskShape::Linear, 1, MaskDistance::Geodesic); }),
+      "distances along the surface (geodesic masks) need CGAL, which this build of Palpate was "
+      "made without");
+  EXPECT_NO_THROW(PressureMasks(*mesh, conditions, MaskShape::Linear, 1));
 }
 
 TEST(WithoutCgal, WhatCannotBeMeasuredIsMarkedAsUnknown) {

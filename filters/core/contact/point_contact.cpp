@@ -8,6 +8,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "contact/torque_mask.h"
+
 namespace palpate {
 
 PointContact::PointContact(std::shared_ptr<const SurfaceStiffness> stiffness,
@@ -76,8 +78,10 @@ ContactResponse PointContact::push(const Eigen::Vector3d& force) const noexcept 
   return respond(force, hapticCompliance_ * force);
 }
 
-void PointContact::deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
-                          Eigen::Matrix3Xd& traction) const {
+/// @param tractionOf  an index into nodes_.
+template <class Traction>
+void PointContact::deformBy(const Traction& tractionOf, Eigen::Matrix3Xd& displacement,
+                            Eigen::Matrix3Xd& traction) const {
   const GreensFunctions& greens = stiffness_->greens();
   const int n = greens.nodeCount(), masked = static_cast<int>(nodes_.size());
   displacement.setZero(3, n);
@@ -87,13 +91,30 @@ void PointContact::deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displa
   Eigen::Matrix<double, 3 * kNodes, 1> weights;
   for (int first = 0; first < masked; first += kNodes) {
     const int count = std::min(kNodes, masked - first);
-    for (int j = 0; j < count; ++j) weights.segment<3>(3 * j) = density_[first + j] * force;
+    for (int j = 0; j < count; ++j) weights.segment<3>(3 * j) = tractionOf(first + j);
     greens.accumulate(Eigen::Map<const Eigen::VectorXi>(nodes_.data() + first, count),
                       weights.head(3 * count), displacement.reshaped());
   }
   for (int node = 0; node < n; ++node)
     if (greens.isFixed(node)) displacement.col(node).swap(traction.col(node));
-  for (int j = 0; j < masked; ++j) traction.col(nodes_[j]) = density_[j] * force;
+  for (int j = 0; j < masked; ++j) traction.col(nodes_[j]) = tractionOf(j);
+}
+
+void PointContact::deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
+                          Eigen::Matrix3Xd& traction) const {
+  const auto tractionOf = [&](int j) -> Eigen::Vector3d { return density_[j] * force; };
+  deformBy(tractionOf, displacement, traction);
+}
+
+Eigen::Vector3d PointContact::deform(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                                     Eigen::Matrix3Xd& displacement,
+                                     Eigen::Matrix3Xd& traction) const {
+  const TorqueMask mask = torqueMask(stiffness_->mesh(), {nodes_, density_});
+  const auto tractionOf = [&](int j) -> Eigen::Vector3d {
+    return density_[j] * force + mask.tensor(j) * torque;
+  };
+  deformBy(tractionOf, displacement, traction);
+  return mask.meanRotation(displacement(Eigen::all, nodes_));
 }
 
 }  // namespace palpate

@@ -33,7 +33,8 @@ class PointContact {
   /// Force of a prescribed displacement, f = K^H(x) u^H (eq. 34). The elastic displacement that
   /// goes with it differs from the haptic one between vertices, where K is interpolated, at
   /// vertices by what symmetrising takes from the compliance, and where the surface is stiffer than
-  /// k_Rigid.
+  /// k_Rigid. Where the stiffness is by the mean displacement, it is the mean under a vertex's mask
+  /// that is the haptic one, and the material point moves farther.
   ContactResponse displace(const Eigen::Vector3d& displacement) const noexcept;
 
   /// Displacement under a prescribed force, u^H = K^H(x)^-1 f.
@@ -46,10 +47,21 @@ class PointContact {
   void deform(const Eigen::Vector3d& force, Eigen::Matrix3Xd& displacement,
               Eigen::Matrix3Xd& traction) const;
 
+  /// The same under a force and a torque, both spread by the point's mask (TorqueMask); the force
+  /// acts in the mask's centre, to which the torque refers.
+  /// @param torque  on the body, N m.
+  /// @return  the mean rotation under the mask that the force and the torque come to, rad.
+  /// @throws std::invalid_argument as torqueMask.
+  Eigen::Vector3d deform(const Eigen::Vector3d& force, const Eigen::Vector3d& torque,
+                         Eigen::Matrix3Xd& displacement, Eigen::Matrix3Xd& traction) const;
+
  private:
   ContactResponse respond(const Eigen::Vector3d& force,
                           const Eigen::Vector3d& hapticDisplacement) const noexcept;
   Eigen::Matrix3d complianceHere(const SurfacePoint& point) const;
+  template <class Traction>
+  void deformBy(const Traction& tractionOf, Eigen::Matrix3Xd& displacement,
+                Eigen::Matrix3Xd& traction) const;
 
   std::shared_ptr<const SurfaceStiffness> stiffness_;
   Eigen::Vector3d staticPoint_;

@@ -17,11 +17,21 @@ namespace {
 
 constexpr double kLeastShare = 0.5;    ///< of M in the served compliance
 constexpr double kFarthestAstray = 1;  ///< |B K - 1|, of a displacement that is asked for
+constexpr double kRounding = 1e-12;    ///< of a matrix that is the one it is held against
 
 void requireRigidStiffness(double rigidStiffness) {
   if (!(rigidStiffness >= 0) || !std::isfinite(rigidStiffness))
     throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
                                 std::to_string(rigidStiffness));
+}
+
+const std::shared_ptr<const SurfaceMesh>& requireFitting(
+    const GreensFunctions& greens, const std::shared_ptr<const SurfaceMesh>& mesh) {
+  if (greens.nodeCount() != mesh->vertexCount())
+    throw std::invalid_argument("the Green's functions have " + std::to_string(greens.nodeCount()) +
+                                " nodes, the surface " + std::to_string(mesh->vertexCount()) +
+                                " vertices");
+  return mesh;
 }
 
 Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
@@ -41,7 +51,7 @@ Raised raisedTo(const Eigen::Matrix3d& floor, const Eigen::Matrix3d& matrix) {
   const Eigen::Matrix3d half = factors.matrixL().solve(matrix);
   const Eigen::Matrix3d relative = factors.matrixL().solve(half.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetricPart(relative));
-  if (eigen.eigenvalues()[0] >= 1) return {matrix, true};
+  if (eigen.eigenvalues()[0] >= 1 - kRounding) return {matrix, true};
   const Eigen::Matrix3d root = factors.matrixL() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseMax(1).cwiseSqrt().asDiagonal();
   return {root * root.transpose(), false};
@@ -76,7 +86,7 @@ Eigen::Matrix3d symmetrised(const Eigen::Matrix3d& compliance, const Eigen::Matr
 }  // namespace
 
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
-                                      const VertexMask& mask) {
+                                      const VertexMask& mask, DisplacementMeasure measure) {
   greens.requireColumns(nodeList(mask.nodes));
   const Eigen::MatrixXd response = maskResponse(greens, mask);
   Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero(), mean = compliance, apart = compliance;
@@ -90,8 +100,11 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
     greens.gather(self, self, own.data());
     apart += share * mask.density[i] * own;
   }
+  const bool isMean = measure == DisplacementMeasure::Mean;
   const Raised least = raisedTo(symmetricPart(apart), symmetricPart(mean));
-  const Raised served = raisedTo(kLeastShare * least.matrix, symmetrised(compliance, least.matrix));
+  const Raised served =
+      isMean ? least : raisedTo(kLeastShare * least.matrix, symmetrised(compliance, least.matrix));
+  if (isMean) compliance = mean;
   const Eigen::Matrix3d stiffness = symmetricPart(served.matrix.inverse());
   const Eigen::Matrix3d astray = compliance * stiffness - Eigen::Matrix3d::Identity();
   const bool isPositive = Eigen::LLT<Eigen::Matrix3d>(served.matrix).info() == Eigen::Success;
@@ -109,15 +122,20 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
                                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape,
                                    double radius, double rigidStiffness,
                                    const ProgressCallback& callback)
-    : greens_(std::move(greens)), mesh_(std::move(mesh)) {
-  requireRigidStiffness(rigidStiffness);
-  if (greens_->nodeCount() != mesh_->vertexCount())
-    throw std::invalid_argument("the Green's functions have " +
-                                std::to_string(greens_->nodeCount()) + " nodes, the surface " +
-                                std::to_string(mesh_->vertexCount()) + " vertices");
+    : SurfaceStiffness(
+          greens, mesh,
+          PressureMasks(*requireFitting(*greens, mesh), greens->info().conditions, shape, radius),
+          {rigidStiffness}, callback) {}
+
+SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
+                                   std::shared_ptr<const SurfaceMesh> mesh,
+                                   const VertexMasks& masks, const StiffnessOptions& options,
+                                   const ProgressCallback& callback)
+    : greens_(std::move(greens)), mesh_(std::move(mesh)), measure_(options.measure) {
+  requireRigidStiffness(options.rigidStiffness);
+  requireFitting(*greens_, mesh_);
   const int n = mesh_->vertexCount();
   const Progress progress(callback);
-  const PressureMasks masks(*mesh_, greens_->info().conditions, shape, radius);
   elastic_.assign(n, Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   std::vector<VertexMask> vertexMasks(n);
   hapticRatio_.assign(n, 1);
@@ -129,7 +147,7 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
     if (greens_->isFixed(v)) continue;
     vertexMasks[v] = masks.at(v);
     try {
-      const VertexStiffness result = maskedVertexStiffness(*greens_, v, vertexMasks[v]);
+      const VertexStiffness result = maskedVertexStiffness(*greens_, v, vertexMasks[v], measure_);
       elastic_[v] = result.stiffness;
       asymmetry_[v] = result.asymmetry;
       limited_[v] = result.limited;
@@ -141,7 +159,7 @@ SurfaceStiffness::SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens
   masks_ = std::make_shared<const std::vector<VertexMask>>(std::move(vertexMasks));
   const std::vector<int> free = greens_->info().conditions.freeNodes();
   if (!isServed && !free.empty()) requireServed(free.back());
-  setRigidStiffness(rigidStiffness);
+  setRigidStiffness(options.rigidStiffness);
   progress.report(1, "stiffness");
 }
 
@@ -178,7 +196,7 @@ std::shared_ptr<const SurfaceStiffness> SurfaceStiffness::withYoungsModulus(
 }
 
 void SurfaceStiffness::requireServed(int vertex) const {
-  if (elastic_[vertex].hasNaN()) maskedVertexStiffness(*greens_, vertex, mask(vertex));
+  if (elastic_[vertex].hasNaN()) maskedVertexStiffness(*greens_, vertex, mask(vertex), measure_);
 }
 
 Eigen::Matrix3d SurfaceStiffness::elasticAt(int triangle,

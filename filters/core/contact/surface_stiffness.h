@@ -13,6 +13,17 @@
 
 namespace palpate {
 
+/// What of the displacement a point-like contact goes by.
+enum class DisplacementMeasure {
+  /// The vertex's own, u_i = B f (eq. 32). B is not symmetric: what is served is the S nearest to
+  /// it. It says where the material under a probe's tip is: a sphere's centre by Hertz.
+  Vertex,
+  /// The mean under the same mask, sum of a_j rho_j u_j = M f: the displacement on which the mask's
+  /// force does its work. M is symmetric by reciprocity, as it stands. It yields less, by a fourth
+  /// under the linear mask, by a fifth under the Hertzian.
+  Mean,
+};
+
 /// The compliance of a masked vertex, u_i = B f with B = sum over j of rho_j Xi_ij (eq. 32), and
 /// the stiffness that is served, the inverse of a symmetric S.
 ///
@@ -27,10 +38,13 @@ namespace palpate {
 /// the support, vertices yield more than their surroundings and nothing changes. M in turn is at
 /// least what the mask's nodes yield one by one, the sum of a_i rho_i^2 Xi_ii. Where a vertex still
 /// went astray by more than it is asked for, |B S^-1 - 1| > 1, there is no stiffness to serve.
+///
+/// By the mean displacement S is M, and nothing is projected where the Green's functions are
+/// reciprocal.
 struct VertexStiffness {
   Eigen::Matrix3d stiffness;  ///< K^E, N/m, symmetric positive definite
-  double asymmetry;           ///< |B - B^T|_F / |B|_F before symmetrising
-  bool limited;               ///< whether half of M was the more compliant in some direction
+  double asymmetry;           ///< |B - B^T|_F / |B|_F, or that of M, before symmetrising
+  bool limited;               ///< whether S had to be raised in some direction
 };
 
 /// @param mask  of a free vertex, the vertex among its nodes.
@@ -38,18 +52,30 @@ struct VertexStiffness {
 ///         positive definite all the same or leads astray, as on a surface that is inside out or
 ///         far too coarse.
 VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
-                                      const VertexMask& mask);
+                                      const VertexMask& mask,
+                                      DisplacementMeasure measure = DisplacementMeasure::Vertex);
+
+/// How the stiffnesses of a surface are made of its masks.
+struct StiffnessOptions {
+  /// k_Rigid of eq. 33 (N/m): the stiffness of fixed vertices, and the most that the haptic
+  /// stiffness shows; 0 for the stiffest elastic vertex.
+  double rigidStiffness = 0;
+  DisplacementMeasure measure = DisplacementMeasure::Vertex;
+};
 
 /// Stiffnesses of all vertices, and by interpolation of every point of the surface ([JP01] sections
 /// 6.2-6.4). Where maskedVertexStiffness throws (its mask needs columns that were not computed, or
 /// the compliance is not positive definite) a vertex's stiffness is NaN.
 class SurfaceStiffness {
  public:
-  /// @param rigidStiffness  k_Rigid of eq. 33 (N/m): the stiffness of fixed vertices, and the most
-  ///                        that the haptic stiffness shows; 0 for the stiffest elastic vertex.
+  /// @param masks  of the mesh, under the Green's functions' conditions; not kept.
   /// @throws as maskedVertexStiffness if no vertex has a stiffness; std::invalid_argument for a
   ///         rigid stiffness that is negative or not finite, or for another surface's Green's
   ///         functions; Aborted.
+  SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
+                   std::shared_ptr<const SurfaceMesh> mesh, const VertexMasks& masks,
+                   const StiffnessOptions& options = {}, const ProgressCallback& progress = {});
+  /// The same under the masks of a radius by straight distance, and by the vertices' displacement.
   SurfaceStiffness(std::shared_ptr<const GreensFunctions> greens,
                    std::shared_ptr<const SurfaceMesh> mesh, MaskShape shape, double radius,
                    double rigidStiffness = 0, const ProgressCallback& progress = {});
@@ -82,6 +108,7 @@ class SurfaceStiffness {
   /// Whether a vertex's stiffness is that of the mean under its mask in some direction.
   bool isLimited(int vertex) const { return limited_[vertex]; }
   double rigidStiffness() const { return rigidStiffness_; }
+  DisplacementMeasure measure() const { return measure_; }
 
   /// K(x) of eq. 34 at a point of a triangle; vertices without weight need not be served.
   /// @param barycentric  of the point, sum 1.
@@ -94,6 +121,7 @@ class SurfaceStiffness {
 
   std::shared_ptr<const GreensFunctions> greens_;
   std::shared_ptr<const SurfaceMesh> mesh_;
+  DisplacementMeasure measure_;
   double givenRigidStiffness_, rigidStiffness_;
   std::vector<Eigen::Matrix3d> elastic_;
   std::vector<double> hapticRatio_, asymmetry_;

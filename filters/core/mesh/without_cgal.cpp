@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "mesh/geodesic_distance.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/polygon_file.h"
 #include "mesh/repair.h"
@@ -32,6 +33,19 @@ PolygonSoup readPlyFile(const std::string&) {
 RepairedSurface repairSurface(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
                               const ProgressCallback&) {
   throw std::runtime_error("repair needs CGAL, which this build of Palpate was made without");
+}
+
+struct GeodesicDistances::Shell {};
+
+GeodesicDistances::GeodesicDistances(const SurfaceMesh& mesh) : mesh_(mesh) {
+  throw std::runtime_error(
+      "distances along the surface (geodesic masks) need CGAL, which this build of Palpate was "
+      "made "
+      "without");
+}
+GeodesicDistances::~GeodesicDistances() = default;
+Eigen::VectorXd GeodesicDistances::from(int) const {
+  return {};
 }
 
 struct TriangleTree::Boxes {
