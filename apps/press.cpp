@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <read_surface.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointContact.h>
 #include <vtkPolyData.h>
@@ -20,7 +21,7 @@ namespace {
 
 struct Options {
   std::string input, output;
-  std::vector<double> point, displacement, force;
+  std::vector<double> point, displacement, force, torque;
   MaskOptions mask;
   PictureOptions picture;
 };
@@ -42,6 +43,8 @@ void printContact(vtkPolyData* pressed) {
   printRow("probe moves by", vectorText(asked.data()));
   printRow("deformed contact point", vectorText(elastic.data()));
   printRow("probe", vectorText(haptic.data()));
+  if (pressed->GetFieldData()->HasArray("ContactRotation"))
+    printRow("turns by, rad", vectorText(fieldVector(pressed, "ContactRotation").data()));
 }
 
 void drawContact(vtkPolyData* pressed, const PictureOptions& options) {
@@ -73,6 +76,10 @@ void addPress(CLI::App& program) {
   auto* force = command->add_option("--force", options->force, "Or with what force on the body, N")
                     ->expected(3);
   displacement->excludes(force);
+  command
+      ->add_option("--torque", options->torque,
+                   "And with what torque, N m, spread by a mask of three vertices or more")
+      ->expected(3);
   options->mask.addTo(*command);
   options->picture.addTo(*command, "the surface before and after");
   command->footer(
@@ -90,7 +97,9 @@ void addPress(CLI::App& program) {
     else
       contact->SetForce(options->force.data());
     options->mask.applyTo(contact);
+    if (!options->torque.empty()) contact->SetTorque(options->torque.data());
     contact->SetRigidStiffness(options->mask.rigidStiffness);
+    contact->SetMeasure(options->mask.measureNumber());
     const auto pressed = run(contact);
     if (!options->output.empty()) writeSurface(pressed, options->output);
     if (!options->picture.path.empty()) drawContact(pressed, options->picture);

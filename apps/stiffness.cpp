@@ -24,6 +24,7 @@ struct Options {
   std::string input, output;
   MaskOptions mask;
   PictureOptions picture;
+  bool rotational = false;
 };
 
 /// What the stiffness field holds at free vertices.
@@ -32,6 +33,8 @@ struct Field {
     vtkDataArray* norm = surface->GetPointData()->GetArray("StiffnessNorm");
     vtkDataArray* types = surface->GetPointData()->GetArray("BoundaryType");
     vtkDataArray* isLimited = surface->GetPointData()->GetArray("StiffnessLimited");
+    vtkDataArray* held = surface->GetPointData()->GetArray("MaskSupportShare");
+    vtkDataArray* beyond = surface->GetPointData()->GetArray("MaskBeyondShare");
     for (vtkIdType i = 0; i < norm->GetNumberOfTuples(); ++i) {
       if (types->GetComponent(i, 0) != 0) continue;
       const double value = norm->GetComponent(i, 0);
@@ -40,10 +43,15 @@ struct Field {
       else
         norms.push_back(value);
       limited += isLimited->GetComponent(i, 0) != 0;
+      cutAtSupport += held->GetComponent(i, 0) > kCut;
+      cutElsewhere += beyond->GetComponent(i, 0) > kCut;
     }
   }
   std::vector<double> norms;
   int missing = 0, limited = 0;  ///< vertices without stiffness, and with that of the mask's mean
+  int cutAtSupport = 0;          ///< masks a good part of which would have been on the support,
+  int cutElsewhere = 0;          ///< or on other components or the far side of a wall
+  static constexpr double kCut = 0.01;
 };
 
 /// The value that a fraction of the values is below.
@@ -71,6 +79,10 @@ void printSpread(const Field& field) {
   printRow("free vertices", std::to_string(values.size() + field.missing));
   if (field.missing > 0) printRow("of these without stiffness", std::to_string(field.missing));
   if (field.limited > 0) printRow("limited by their mask's mean", std::to_string(field.limited));
+  if (field.cutAtSupport > 0)
+    printRow("masks cut off at the support", std::to_string(field.cutAtSupport));
+  if (field.cutElsewhere > 0)
+    printRow("masks cut off at gaps and walls", std::to_string(field.cutElsewhere));
   printRow("|K| smallest, N/m", number(*low));
   printRow("|K| mean, N/m", number(mean));
   printRow("|K| largest, N/m", number(*high));
@@ -111,6 +123,8 @@ void addStiffness(CLI::App& program) {
       command->add_option("output", options->output, "The model with its stiffness fields, .vtp"),
       "models", ".vtp");
   options->mask.addTo(*command);
+  command->add_flag("--rotational", options->rotational,
+                    "Write the stiffness against torques, too (RotationalStiffness, N m/rad)");
   options->picture.addTo(*command, "the norm of the stiffness");
   command->footer(
       "Without a mask the field shows the mesh as much as the material.\n"
@@ -121,6 +135,8 @@ void addStiffness(CLI::App& program) {
     filter->SetInputData(readSurface(options->input));
     options->mask.applyTo(filter);
     filter->SetRigidStiffness(options->mask.rigidStiffness);
+    filter->SetMeasure(options->mask.measureNumber());
+    filter->SetRotational(options->rotational);
     const auto surface = run(filter);
     const Field field(surface);
     if (!options->output.empty()) writeSurface(surface, options->output);

@@ -43,6 +43,10 @@ void onProgress(vtkObject* caller, unsigned long, void*, void*) {
   drawProgress(filter->GetProgress(), filter->GetProgressText());
 }
 
+/// In the order of vtkMaskedContactAlgorithm::MaskType.
+const std::vector<std::string> kMasks{"linear",   "uniform",  "gaussian",
+                                      "hertzian", "gradient", "biharmonic"};
+
 }  // namespace
 
 void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending) {
@@ -154,8 +158,21 @@ void MaskOptions::addTo(CLI::App& command) {
   length->excludes(edges);
   command
       .add_option("--mask", mask,
-                  "How the pressure falls with distance: linear, uniform, gaussian or hertzian")
-      ->check(CLI::IsMember({"linear", "uniform", "gaussian", "hertzian"}))
+                  "How the pressure falls with distance: linear, uniform, gaussian or hertzian, or "
+                  "the smooth pressure nearest to a point load: gradient or biharmonic")
+      ->check(CLI::IsMember(kMasks))
+      ->capture_default_str();
+  command
+      .add_option("--distance", distance,
+                  "Straight (euclidean) or along the surface (geodesic), not across grooves")
+      ->check(CLI::IsMember({"euclidean", "geodesic"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--measure", measure,
+          "The displacement that a stiffness goes by: that of the vertex, or the mean under "
+          "the mask")
+      ->check(CLI::IsMember({"vertex", "mean"}))
       ->capture_default_str();
   command.add_option("--rigid-stiffness", rigidStiffness,
                      "Stiffness of fixed vertices and largest Frobenius norm of the stiffnesses "
@@ -163,8 +180,8 @@ void MaskOptions::addTo(CLI::App& command) {
 }
 
 void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {
-  const std::vector<std::string> names{"linear", "uniform", "gaussian", "hertzian"};
-  filter->SetMask(static_cast<int>(std::find(names.begin(), names.end(), mask) - names.begin()));
+  filter->SetMask(static_cast<int>(std::find(kMasks.begin(), kMasks.end(), mask) - kMasks.begin()));
+  filter->SetDistance(distance == "geodesic");
   filter->SetRadiusInEdgeLengths(radiusEdges != 0);
   filter->SetRadius(radiusEdges != 0 ? radiusEdges : radius);
 }

@@ -55,10 +55,12 @@ void printWarnings(vtkPolyData* surface);
 
 /// Mask options of a subcommand and their way into a filter.
 struct MaskOptions {
-  std::string mask = "linear";
+  std::string mask = "linear", distance = "euclidean", measure = "vertex";
   double radius = 0, radiusEdges = 0, rigidStiffness = 0;
   void addTo(CLI::App& command);
   void applyTo(vtkMaskedContactAlgorithm* filter) const;
+  /// The number by which the filters know the measure.
+  int measureNumber() const { return measure == "mean"; }
 };
 
 /// Picture options of a subcommand.

@@ -12,7 +12,9 @@ from .errors import Error
 PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
 COLLOCATIONS = {"averaged": 0, "vertex": 1}
 DOMAINS = {"interior": 0, "exterior": 1}
-MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3}
+MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3, "gradient": 4, "biharmonic": 5}
+DISTANCES = {"euclidean": 0, "geodesic": 1}
+MEASURES = {"vertex": 0, "mean": 1}
 
 
 def shown(value):
@@ -130,11 +132,13 @@ def progress_callback(progress):
     return progress
 
 
-def set_mask(algorithm, radius, radius_in_edges, mask):
-    """Gives a filter its pressure mask; a single vertex without any radius."""
+def set_mask(algorithm, radius, radius_in_edges, mask, distance, measure):
+    """Gives a filter its pressure mask and measure; a single vertex without any radius."""
     if radius is not None and radius_in_edges is not None:
         raise Error("give radius or radius_in_edges, not both")
     algorithm.SetMask(choice(mask, MASKS, "mask"))
+    algorithm.SetDistance(choice(distance, DISTANCES, "distance"))
+    algorithm.SetMeasure(choice(measure, MEASURES, "measure"))
     algorithm.SetRadiusInEdgeLengths(radius_in_edges is not None)
     given = radius if radius_in_edges is None else radius_in_edges
     algorithm.SetRadius(0.0 if given is None else number(given, "radius"))

@@ -228,7 +228,8 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
 
 
 def press(model, point, displacement=None, force=None, radius=None, mask="linear", *,
-          radius_in_edges=None, rigid_stiffness=0.0):
+          radius_in_edges=None, rigid_stiffness=0.0, distance="euclidean", measure="vertex",
+          torque=None):
     """Press (or pull) the surface at a point.
 
     Parameters
@@ -249,19 +250,30 @@ def press(model, point, displacement=None, force=None, radius=None, mask="linear
     radius : float, optional
         Radius of the pressure mask, metres. By default the load goes to single vertices, which is
         soft without bound as the mesh is refined: give the size of what touches.
-    mask : {"linear", "uniform", "gaussian", "hertzian"}
-        How the pressure falls with distance.
+    mask : {"linear", "uniform", "gaussian", "hertzian", "gradient", "biharmonic"}
+        How the pressure falls with distance. The last two are the smooth pressures nearest to a point
+        load (James & Pai 2001, appendix A), as wide as sinks their centre like the linear one.
     radius_in_edges : float, optional
         The radius as a multiple of the mean edge length, instead of `radius`.
     rigid_stiffness : float
         Stiffness of fixed vertices and largest stiffness shown, N/m; 0 for the stiffest free vertex.
+    distance : {"euclidean", "geodesic"}
+        Straight, or along the surface, so that the pressure does not reach across a groove.
+    measure : {"vertex", "mean"}
+        Whether a prescribed displacement is that of the material point or the mean under the mask, on
+        which the force does its work (stiffer by a third under the linear mask, a fourth under the
+        Hertzian one).
+    torque : array_like, optional
+        What it is twisted with besides, newton metres, about the mask's centre and spread by the mask;
+        that must hold three vertices or more.
 
     Returns
     -------
     vtkPolyData
         The model with `Displacement` and `Traction` (n by 3), and the field arrays `ContactForce` (on
         the body, N), `ContactPoint`, `ElasticContactPoint` and `HapticContactPoint` (1 by 3; x^C, x^E,
-        x^H of James & Pai 2001, fig. 8).
+        x^H of James & Pai 2001, fig. 8); under a torque also `ContactTorque` and `ContactRotation` (1 by
+        3, N m and rad, the mean under the mask).
 
     Raises
     ------
@@ -286,12 +298,14 @@ def press(model, point, displacement=None, force=None, radius=None, mask="linear
     else:
         contact.SetForce(*vector(force, "force"))
     contact.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
-    set_mask(contact, radius, radius_in_edges, mask)
+    if torque is not None:
+        contact.SetTorque(*vector(torque, "torque"))
+    set_mask(contact, radius, radius_in_edges, mask, distance, measure)
     return run(contact)
 
 
 def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_stiffness=0.0,
-              progress=None):
+              progress=None, distance="euclidean", measure="vertex", rotational=False):
     """The stiffness that a point-like contact feels at every vertex.
 
     Parameters
@@ -301,19 +315,28 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     radius : float, optional
         Radius of the pressure mask, metres; by default single vertices are pressed, whose stiffness
         depends on the mesh.
-    mask : {"linear", "uniform", "gaussian", "hertzian"}
+    mask : {"linear", "uniform", "gaussian", "hertzian", "gradient", "biharmonic"}
+        As in `press`.
     radius_in_edges : float, optional
         The radius as a multiple of the mean edge length (the paper's fig. 7 uses 2).
     rigid_stiffness : float
         What fixed vertices show, N/m; 0 for the stiffest free vertex.
     progress : callable or bool, optional
         As in `precompute`.
+    distance : {"euclidean", "geodesic"}
+        As in `press`.
+    measure : {"vertex", "mean"}
+        The displacement that the stiffness goes by: the vertex's own, or the mean under the mask.
+    rotational : bool
+        Also compute `RotationalStiffness` (n by 9, N m/rad), the torque per mean rotation under the mask.
 
     Returns
     -------
     vtkPolyData
         The model with `Stiffness` (n by 9, the matrix row by row, N/m), `StiffnessNorm` (n,
-        Frobenius), `StiffnessAsymmetry`, `StiffnessLimited` and `HapticRatio` (n). Where a vertex's mask
+        Frobenius), `StiffnessAsymmetry`, `StiffnessLimited`, `HapticRatio`, `MaskSupportShare` and
+        `MaskBeyondShare` (n; how much of a mask would have been on fixed vertices, and on other
+        components or the far side of a wall). Where a vertex's mask
         needs columns that were not computed, or its compliance is that of no stiffness (walls far
         thinner than the edges are long), it is NaN.
 
@@ -333,7 +356,8 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     algorithm = vtkSurfaceStiffness()
     algorithm.SetInputData(surface_of(model))
     algorithm.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
-    set_mask(algorithm, radius, radius_in_edges, mask)
+    algorithm.SetRotational(flag(rotational, "rotational"))
+    set_mask(algorithm, radius, radius_in_edges, mask, distance, measure)
     return run(algorithm, progress_callback(progress))
 
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "contact/capacitance_matrix.h"
+#include "contact/mask_settings.h"
 #include "contact/point_contact.h"
 #include "support/allocation_count.h"
 #include "support/cpu_clock.h"
@@ -158,6 +159,38 @@ void tickOfStickingContact(benchmark::State& state) {
   state.counters["allocations"] = double(test::allocationCount() - before);
 }
 
+/// The masks of all free vertices, radius of two mean edges; kind as in MaskKind, -1 the linear one
+/// by geodesic distance.
+void masksOfAllVertices(benchmark::State& state) {
+  const ElasticModel model = sphereModel(static_cast<int>(state.range(0)));
+  const int kind = static_cast<int>(state.range(1));
+  const MaskSettings settings{static_cast<MaskKind>(std::max(0, kind)),
+                              2 * model.mesh().meanEdgeLength(),
+                              kind < 0 ? MaskDistance::Geodesic : MaskDistance::Euclidean};
+  double nodes = 0;
+  const std::vector<int> free = model.conditions().freeNodes();
+  for (auto _ : state) {
+    const auto masks = makeMasks(model.mesh(), model.conditions(), settings);
+    nodes = 0;
+    for (int v : free) nodes += double(masks->at(v).nodes.size()) / double(free.size());
+  }
+  state.counters["nodes"] = nodes;
+}
+
+/// The stiffnesses of all free vertices under such masks.
+void stiffnessOfAllVertices(benchmark::State& state) {
+  const auto greens = sphereGreens(static_cast<int>(state.range(0)));
+  const ElasticModel model = sphereModel(static_cast<int>(state.range(0)));
+  const auto mesh = std::make_shared<SurfaceMesh>(model.mesh());
+  const auto masks = makeMasks(
+      *mesh, model.conditions(),
+      {static_cast<MaskKind>(state.range(1)), 2 * mesh->meanEdgeLength(), MaskDistance::Euclidean});
+  for (auto _ : state) {
+    const SurfaceStiffness stiffness(greens, mesh, *masks);
+    benchmark::DoNotOptimize(stiffness.rigidStiffness());
+  }
+}
+
 void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"n", "s"})
       ->ArgsProduct({{162, 642}, {40, 100}})
@@ -171,6 +204,14 @@ BENCHMARK(tickWithOneAddition)->Apply(sizes)->UseManualTime();
 BENCHMARK(tickWithOneChange)->Apply(sizes);
 BENCHMARK(tickOfPointContact)->ArgName("n")->Arg(162)->Arg(642)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tickOfStickingContact)->ArgName("n")->Arg(162)->Arg(642)->Unit(benchmark::kMicrosecond);
+BENCHMARK(masksOfAllVertices)
+    ->ArgNames({"n", "kind"})
+    ->ArgsProduct({{642, 2562}, {-1, 0, 4, 5}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(stiffnessOfAllVertices)
+    ->ArgNames({"n", "kind"})
+    ->ArgsProduct({{642}, {0, 4, 5}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace palpate::bench

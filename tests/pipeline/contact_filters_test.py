@@ -66,6 +66,53 @@ class PressureMask(unittest.TestCase):
         density = self.density(both, self.top, 1.0)
         self.assertEqual(density[162:].max(), 0)
 
+    def test_of_appendix_a_transmits_the_unit_force_and_needs_a_radius(self):
+        for kind in ("Gradient", "Biharmonic"):
+            density = self.density(self.model, self.top, 0.6, kind)
+            self.assertAlmostEqual(float(density @ self.area), 1, delta=1e-13)
+            self.assertEqual(int(np.argmax(density)), self.top)
+            self.assertIn("needs a radius", failure_of(self.mask(self.model, self.top, 0, kind)))
+
+    def test_along_the_surface_is_narrower_than_the_straight_one(self):
+        algorithm = self.mask(self.model, self.top, 1.2, "Uniform")
+        algorithm.Update()
+        straight = np.count_nonzero(palpate.array(algorithm.GetOutput(), "PressureMask"))
+        algorithm.SetDistanceToGeodesic()
+        algorithm.Update()
+        self.assertEqual(algorithm.GetFailureMessage(), "")
+        along = np.count_nonzero(palpate.array(algorithm.GetOutput(), "PressureMask"))
+        # Caps of a unit sphere: 2 pi (1 - cos 1.2) against pi 1.2^2, of 4 pi.
+        self.assertLess(along, straight)
+        self.assertAlmostEqual(along / 162, (1 - np.cos(1.2)) / 2, delta=0.05)
+
+    def test_tells_what_it_does_not_cover(self):
+        algorithm = self.mask(self.model, self.top, 0.6)
+        algorithm.Update()
+        shares = lambda: [palpate.array(algorithm.GetOutput(), name)[0]
+                          for name in ("MaskSupportShare", "MaskBeyondShare")]
+        self.assertEqual(shares(), [0, 0])
+        fixed = palpate.array(self.model, "BoundaryType") == 1
+        heights = np.where(fixed, np.inf, points_of(self.model)[:, 2])
+        algorithm.SetVertex(int(np.argmin(heights)))
+        algorithm.Update()
+        self.assertGreater(shares()[0], 0.1)
+        self.assertEqual(shares()[1], 0)
+
+    def test_as_a_tensor_spreads_a_torque_and_no_force(self):
+        algorithm = self.mask(self.model, self.top, 0.6)
+        algorithm.Update()
+        self.assertFalse(algorithm.GetOutput().GetPointData().HasArray("TorqueMask"))
+        algorithm.TensorOn()
+        algorithm.Update()
+        tensor = palpate.array(algorithm.GetOutput(), "TorqueMask").reshape(-1, 3, 3)
+        torque = np.array((1, 2, -0.5))
+        forces = self.area[:, None] * (tensor @ torque)
+        self.assertLess(np.abs(forces.sum(axis=0)).max(), 1e-12)
+        about = np.cross(points_of(self.model), forces).sum(axis=0)
+        self.assertLess(np.abs(about - torque).max(), 1e-12)
+        algorithm.SetRadius(0)
+        self.assertIn("a torque needs", failure_of(algorithm))
+
     def test_at_a_fixed_vertex_is_refused_by_name(self):
         bottom = int(np.argmin(points_of(self.model)[:, 2]))
         self.assertIn(str(bottom), failure_of(self.mask(self.model, bottom, 0.0)))
@@ -113,7 +160,65 @@ class Stiffness(unittest.TestCase):
         self.assertGreater(palpate.array(palpate.stiffness(raw), "StiffnessAsymmetry").max(), 1e-6)
 
 
+    def test_by_the_mean_displacement_is_symmetric_as_it_stands(self):
+        field = palpate.stiffness(sphere_model(2), radius=0.6, measure="mean")
+        self.assertLess(palpate.array(field, "StiffnessAsymmetry").max(), 1e-12)
+        by_vertex = palpate.stiffness(sphere_model(2), radius=0.6)
+        free = palpate.array(field, "BoundaryType") == 0
+        ratio = (palpate.array(field, "StiffnessNorm") / palpate.array(by_vertex, "StiffnessNorm"))[free]
+        self.assertGreater(ratio.min(), 1)  # the mean yields less than the middle
+        self.assertLess(ratio.max(), 1.6)
+
+    def test_under_every_mask_and_distance_is_positive_definite(self):
+        for mask in palpate.arguments.MASKS:
+            for distance in palpate.arguments.DISTANCES:
+                field = palpate.stiffness(sphere_model(2), radius=0.6, mask=mask, distance=distance)
+                k = palpate.array(field, "Stiffness").reshape(-1, 3, 3)
+                self.assertGreater(np.linalg.eigvalsh(k).min(), 0, (mask, distance))
+
+    def test_against_torques_is_there_when_asked_for(self):
+        field = palpate.stiffness(sphere_model(2), radius=0.6, rotational=True)
+        free = palpate.array(field, "BoundaryType") == 0
+        k = palpate.array(field, "RotationalStiffness").reshape(-1, 3, 3)
+        self.assertTrue(np.isnan(k[~free]).all())
+        self.assertGreater(np.linalg.eigvalsh(k[free]).min(), 0)
+        plain = palpate.stiffness(field, radius=0.6)
+        self.assertFalse(plain.GetPointData().HasArray("RotationalStiffness"))
+
+
 class PointContact(unittest.TestCase):
+    def test_turns_under_a_torque_as_the_rotational_stiffness_says(self):
+        model = sphere_model(2)
+        top = int(np.argmax(points_of(model)[:, 2]))
+        torque = np.array((1.0, -2.0, 3.0))
+        turned = palpate.press(model, points_of(model)[top], force=(0, 0, 0), radius=0.6, torque=torque)
+        self.assertTrue((palpate.array(turned, "ContactTorque")[0] == torque).all())
+        field = palpate.stiffness(model, radius=0.6, rotational=True)
+        k = palpate.array(field, "RotationalStiffness")[top].reshape(3, 3)
+        self.assertLess(np.abs(k @ palpate.array(turned, "ContactRotation")[0] - torque).max(), 1e-10)
+        moved = palpate.array(turned, "Displacement")[top]
+        elastic, static = (palpate.array(turned, n)[0] for n in ("ElasticContactPoint", "ContactPoint"))
+        self.assertLess(np.abs(elastic - static - moved).max(), 1e-13)
+        again = palpate.press(turned, points_of(model)[top], force=(0, 0, -1), radius=0.6)
+        self.assertFalse(again.GetFieldData().HasArray("ContactRotation"))
+        with self.assertRaisesRegex(palpate.Error, "a torque needs"):
+            palpate.press(model, (0, 0, 1), force=(0, 0, 0), torque=torque)
+
+    def test_by_the_mean_displacement_moves_the_mask_as_asked(self):
+        model = sphere_model(2)
+        top = int(np.argmax(points_of(model)[:, 2]))
+        asked = np.array((1e-3, -2e-3, 3e-3))
+        pressed = palpate.press(model, points_of(model)[top], displacement=asked, radius=0.6,
+                                measure="mean")
+        mask = palpate.vtkVertexPressureMask()
+        mask.SetInputData(model)
+        mask.SetVertex(top)
+        mask.SetRadius(0.6)
+        mask.Update()
+        weights = palpate.array(mask.GetOutput(), "PressureMask") * palpate.array(model, "VertexArea")
+        mean = weights @ palpate.array(pressed, "Displacement")
+        self.assertLess(np.abs(mean - asked).max(), 1e-12)
+
     def contact(self, model=None):
         algorithm = palpate.vtkPointContact()
         algorithm.SetInputData(model or sphere_model(2))

@@ -86,6 +86,27 @@ class Walkthrough(Program):
                       - palpate.array(expected, "Displacement"))
         self.assertEqual(np.abs(difference).max(), 0)
 
+    def test_takes_every_mask_measure_and_torque(self):
+        path, output = self.model(), self.folder / "twisted.vtp"
+        told = self.run_well("press", path, output, "--at", 0, 0, 0.03, "--displacement", 0, 0, -0.002,
+                             "--torque", 0, 0, 1e-4, "--radius", 0.02, "--mask", "gradient",
+                             "--measure", "mean")
+        self.assertIn("turns by, rad", told)
+        expected = palpate.press(palpate.read(path), (0, 0, 0.03), displacement=(0, 0, -0.002),
+                                 torque=(0, 0, 1e-4), radius=0.02, mask="gradient", measure="mean")
+        for name in ("Displacement", "ContactRotation"):
+            self.assertEqual(np.abs(palpate.array(palpate.read(output), name)
+                                    - palpate.array(expected, name)).max(), 0)
+        field = self.folder / "field.vtp"
+        told = self.run_well("stiffness", path, field, "--radius-edges", 2, "--distance", "geodesic",
+                             "--measure", "mean", "--rotational")
+        self.assertIn("masks cut off at the support", told)
+        expected = palpate.stiffness(palpate.read(path), radius_in_edges=2, distance="geodesic",
+                                     measure="mean", rotational=True)
+        for name in ("Stiffness", "RotationalStiffness"):
+            self.assertTrue(np.array_equal(palpate.array(palpate.read(field), name),
+                                           palpate.array(expected, name), equal_nan=True))
+
     def test_info_tells_what_a_file_is(self):
         self.assertIn("sound                       yes", self.run_well("info", KIDNEY))
         told = self.run_well("info", self.model())

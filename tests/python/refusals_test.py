@@ -300,9 +300,19 @@ class Contacts(Refusals):
         model = sphere_model(1)
         self.refused("radius", palpate.stiffness, model, radius=-1)
         self.refused("radius", palpate.stiffness, model, radius=np.nan)
-        self.refused("there is no mask 'x': choose one of linear, uniform, gaussian, hertzian",
+        self.refused("there is no mask 'x': choose one of linear, uniform, gaussian, hertzian, "
+                     "gradient, biharmonic",
                      palpate.stiffness, model, radius=1, mask="x")
         self.refused("not both", palpate.stiffness, model, radius=1, radius_in_edges=1)
+        self.refused("there is no distance 'x': choose one of euclidean, geodesic",
+                     palpate.stiffness, model, radius=1, distance="x")
+        self.refused("there is no measure 'x': choose one of vertex, mean",
+                     palpate.stiffness, model, radius=1, measure="x")
+        self.refused("a variational mask needs a radius", palpate.stiffness, model, mask="gradient")
+        self.refused("torque must have three components", palpate.press, model, (0, 0, 1),
+                     force=(0, 0, 1), radius=1, torque=(1, 2))
+        self.refused("not a finite number", palpate.press, model, (0, 0, 1), force=(0, 0, 1), radius=1,
+                     torque=(1, 2, np.inf))
 
     def test_masks_at_fixed_vertices_have_no_free_node(self):
         model = sphere_model(2)

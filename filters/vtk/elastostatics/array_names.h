@@ -14,10 +14,15 @@ constexpr const char* VertexArea = "VertexArea";     // m^2
 constexpr const char* Displacement = "Displacement"; // 3, m
 constexpr const char* Traction = "Traction";         // 3, Pa
 constexpr const char* PressureMask = "PressureMask"; // 1/m^2
+constexpr const char* TorqueMask = "TorqueMask";     // 9, row by row, Pa per N m: 1/m^3
 constexpr const char* Stiffness = "Stiffness";       // 9, row by row, N/m
 constexpr const char* StiffnessNorm = "StiffnessNorm";           // Frobenius, N/m
 constexpr const char* StiffnessAsymmetry = "StiffnessAsymmetry"; // before symmetrising, relative
 constexpr const char* StiffnessLimited = "StiffnessLimited"; // 1 where that of the mask's mean limits it
+constexpr const char* RotationalStiffness = "RotationalStiffness"; // 9, row by row, N m/rad
+// Shares of a mask by area; point data of all masks, field data of one.
+constexpr const char* MaskSupportShare = "MaskSupportShare"; // what would have been on fixed vertices
+constexpr const char* MaskBeyondShare = "MaskBeyondShare";   // on other components and far sides
 constexpr const char* HapticRatio = "HapticRatio";               // |K^H| / |K^E|
 
 // Cell data.
@@ -61,6 +66,7 @@ constexpr const char* RepairChanges = "RepairChanges"; // strings
 // Field data: contacts.
 constexpr const char* ContactForce = "ContactForce";   // 3 a zone, on the body, N
 constexpr const char* ContactTorque = "ContactTorque"; // 3 a zone, about the zone's centroid, N m
+constexpr const char* ContactRotation = "ContactRotation"; // 3, mean under the mask, rad
 constexpr const char* ContactCondition = "ContactCondition"; // of the capacitance matrix
 constexpr const char* ContactPoint = "ContactPoint";               // 3, x^C of [JP01] fig. 8, m
 constexpr const char* ElasticContactPoint = "ElasticContactPoint"; // 3, x^E, m
@@ -79,10 +85,11 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   RockingCompliance, PeakBytes, StageSeconds, StageNames, Warnings };
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
-  ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };
-/// Point data of all contacts with one model.
-constexpr const char* StiffnessResults[] = { PressureMask, Stiffness, StiffnessNorm,
-  StiffnessAsymmetry, StiffnessLimited, HapticRatio };
+  ContactRotation, ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };
+/// Point data of all contacts with one model, and field data of one mask.
+constexpr const char* StiffnessResults[] = { PressureMask, TorqueMask, Stiffness, StiffnessNorm,
+  StiffnessAsymmetry, StiffnessLimited, RotationalStiffness, MaskSupportShare, MaskBeyondShare,
+  HapticRatio };
 } // namespace palpate::arrays
 
 #endif

@@ -322,6 +322,21 @@ void setBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>& ty
   surface->GetPointData()->AddArray(array);
 }
 
+void setPointMatrices(
+  vtkPolyData* surface, const char* name, const std::vector<Eigen::Matrix3d>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(9);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  for (std::size_t v = 0; v < values.size(); ++v)
+  {
+    const Eigen::Matrix3d columns = values[v].transpose(); // whose columns are rows
+    array->SetTypedTuple(static_cast<vtkIdType>(v), columns.data());
+  }
+  surface->GetPointData()->AddArray(array);
+}
+
 void removeGreensFunctions(vtkDataObject* data)
 {
   for (const char* name : arrays::GreensFunctionResults)
@@ -345,6 +360,7 @@ void removeResponses(vtkPolyData* surface)
   for (const char* name : arrays::StiffnessResults)
   {
     surface->GetPointData()->RemoveArray(name);
+    fieldsOf(surface)->RemoveArray(name);
   }
 }
 

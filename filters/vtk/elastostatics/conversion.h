@@ -49,6 +49,9 @@ std::string fieldString(vtkDataObject* data, const char* name);
 /// 3 by #points point data, or one number a point.
 void setPointVectors(vtkPolyData* surface, const char* name, const Eigen::Matrix3Xd& values);
 void setPointNumbers(vtkPolyData* surface, const char* name, const Eigen::VectorXd& values);
+/// 3 by 3 each, row by row.
+void setPointMatrices(
+  vtkPolyData* surface, const char* name, const std::vector<Eigen::Matrix3d>& values);
 
 /// The 0/1 values of the BoundaryType array; all free if `optional` and there is none.
 std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional);

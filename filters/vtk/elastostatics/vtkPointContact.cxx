@@ -4,6 +4,7 @@
 #include "vtkPointContact.h"
 
 #include "array_names.h"
+#include "contact/mask_settings.h"
 #include "contact/point_contact.h"
 #include "conversion.h"
 #include "model_arrays.h"
@@ -21,8 +22,9 @@ struct vtkPointContact::Prepared
 {
   vtkPolyData* Input;
   vtkMTimeType InputTime;
-  int Mask;
-  double Radius, RigidStiffness;
+  palpate::MaskSettings Mask;
+  int Measure;
+  double RigidStiffness;
   std::shared_ptr<const palpate::SurfaceStiffness> Stiffness;
 };
 
@@ -37,7 +39,9 @@ void vtkPointContact::PrintSelf(ostream& os, vtkIndent indent)
   print("Point", this->Point);
   print("Displacement", this->Displacement);
   print("Force", this->Force);
-  os << indent << "ForcePrescribed: " << this->ForcePrescribed << "\n"
+  print("Torque", this->Torque);
+  os << indent << "Measure: " << this->Measure << "\n"
+     << indent << "ForcePrescribed: " << this->ForcePrescribed << "\n"
      << indent << "RigidStiffness: " << this->RigidStiffness << "\n";
 }
 
@@ -65,20 +69,26 @@ void vtkPointContact::SetForce(double x, double y, double z)
 
 const vtkPointContact::Prepared& vtkPointContact::Prepare(vtkPolyData* input)
 {
+  const auto isSame = [](const palpate::MaskSettings& a, const palpate::MaskSettings& b)
+  { return a.kind == b.kind && a.radius == b.radius && a.distance == b.distance; };
   const bool fits = this->Kept && this->Kept->Input == input &&
-    this->Kept->InputTime == input->GetMTime() && this->Kept->Mask == this->Mask &&
+    this->Kept->InputTime == input->GetMTime() && this->Kept->Measure == this->Measure &&
     this->Kept->RigidStiffness == this->RigidStiffness;
-  if (!fits || this->Kept->Radius != this->RadiusFor(this->Kept->Stiffness->mesh().meanEdgeLength()))
+  if (!fits ||
+    !isSame(this->Kept->Mask, this->Settings(this->Kept->Stiffness->mesh().meanEdgeLength())))
   {
     this->Kept.reset();
     const palpate::convert::ServedModel served = palpate::convert::servedModelOf(input);
-    const double radius = this->RadiusFor(served.mesh->meanEdgeLength());
+    const palpate::MaskSettings mask = this->Settings(served.mesh->meanEdgeLength());
+    const auto masks = palpate::makeMasks(*served.mesh, served.greens->info().conditions, mask);
+    const palpate::StiffnessOptions options{ this->RigidStiffness,
+      static_cast<palpate::DisplacementMeasure>(this->Measure) };
     auto stiffness = std::make_shared<const palpate::SurfaceStiffness>(served.greens, served.mesh,
-      static_cast<palpate::MaskShape>(this->Mask), radius, this->RigidStiffness,
+      *masks, options,
       [this](double fraction, const char* stage)
       { return this->ReportProgress(fraction, stage); });
     this->Kept.reset(new Prepared{
-      input, input->GetMTime(), this->Mask, radius, this->RigidStiffness, std::move(stiffness) });
+      input, input->GetMTime(), mask, this->Measure, this->RigidStiffness, std::move(stiffness) });
   }
   return *this->Kept;
 }
@@ -88,19 +98,35 @@ void vtkPointContact::Compute(vtkPolyData* input, vtkPolyData* output, vtkInform
   namespace convert = palpate::convert;
   namespace arrays = palpate::arrays;
   const Eigen::Vector3d prescribed(this->ForcePrescribed ? this->Force : this->Displacement);
-  if (!prescribed.allFinite())
+  const Eigen::Vector3d torque(this->Torque);
+  if (!prescribed.allFinite() || !torque.allFinite())
   {
-    throw std::invalid_argument("the prescribed displacement or force is not a finite number");
+    throw std::invalid_argument(prescribed.allFinite()
+        ? "the torque is not a finite number"
+        : "the prescribed displacement or force is not a finite number");
   }
   const Prepared& prepared = this->Prepare(input);
-  const palpate::PointContact contact(prepared.Stiffness,
-    palpate::nearestSurfacePoint(prepared.Stiffness->mesh(), Eigen::Vector3d(this->Point)));
-  const palpate::ContactResponse response =
+  const palpate::SurfaceMesh& mesh = prepared.Stiffness->mesh();
+  const palpate::SurfacePoint point =
+    palpate::nearestSurfacePoint(mesh, Eigen::Vector3d(this->Point));
+  const palpate::PointContact contact(prepared.Stiffness, point);
+  palpate::ContactResponse response =
     this->ForcePrescribed ? contact.push(prescribed) : contact.displace(prescribed);
   Eigen::Matrix3Xd displacement, traction;
-  contact.deform(response.force, displacement, traction);
-
   convert::removeContact(output);
+  if (torque.isZero(0))
+  {
+    contact.deform(response.force, displacement, traction);
+  }
+  else
+  {
+    convert::setFieldVector(output, arrays::ContactRotation,
+      contact.deform(response.force, torque, displacement, traction));
+    convert::setFieldVector(output, arrays::ContactTorque, torque);
+    response.elasticPoint = response.staticPoint +
+      displacement(Eigen::all, mesh.triangles().col(point.triangle)) * point.barycentric;
+  }
+
   convert::setPointVectors(output, arrays::Displacement, displacement);
   convert::setPointVectors(output, arrays::Traction, traction);
   convert::setFieldVector(output, arrays::ContactForce, response.force);

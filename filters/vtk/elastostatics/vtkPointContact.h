@@ -57,6 +57,32 @@ public:
   vtkGetMacro(RigidStiffness, double);
   ///@}
 
+  ///@{
+  /**
+   * The displacement that the stiffness goes by: that of the vertex itself (default, eq. 32), or the
+   * mean under the mask, on which the mask's force does its work.
+   */
+  enum MeasureType
+  {
+    VERTEX = 0,
+    MEAN = 1
+  };
+  vtkSetClampMacro(Measure, int, VERTEX, MEAN);
+  vtkGetMacro(Measure, int);
+  void SetMeasureToVertex() { this->SetMeasure(VERTEX); }
+  void SetMeasureToMean() { this->SetMeasure(MEAN); }
+  ///@}
+
+  ///@{
+  /**
+   * A torque on the body (N m) besides, about the mask's centre and spread by the mask (footnote 7). It
+   * adds the field arrays `ContactTorque` and `ContactRotation` (the mean under the mask, rad), and needs
+   * a mask of three nodes or more. Default 0.
+   */
+  vtkSetVector3Macro(Torque, double);
+  vtkGetVector3Macro(Torque, double);
+  ///@}
+
 protected:
   vtkPointContact();
   ~vtkPointContact() override;
@@ -72,6 +98,8 @@ private:
   double Point[3] = { 0, 0, 0 };
   double Displacement[3] = { 0, 0, 0 };
   double Force[3] = { 0, 0, 0 };
+  double Torque[3] = { 0, 0, 0 };
+  int Measure = VERTEX;
   bool ForcePrescribed = false;
   double RigidStiffness = 0;
   std::unique_ptr<Prepared> Kept;

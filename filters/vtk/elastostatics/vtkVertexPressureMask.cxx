@@ -4,21 +4,24 @@
 #include "vtkVertexPressureMask.h"
 
 #include "array_names.h"
-#include "contact/pressure_mask.h"
+#include "contact/mask_settings.h"
+#include "contact/torque_mask.h"
 #include "conversion.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkVertexPressureMask);
 
 void vtkVertexPressureMask::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Vertex: " << this->Vertex << "\n";
+  os << indent << "Vertex: " << this->Vertex << "\n" << indent << "Tensor: " << this->Tensor << "\n";
 }
 
 void vtkVertexPressureMask::Compute(
@@ -32,11 +35,24 @@ void vtkVertexPressureMask::Compute(
       ": the surface has " + std::to_string(mesh.vertexCount()));
   }
   const palpate::BoundaryConditions conditions(convert::boundaryTypesOf(input, false));
-  const palpate::PressureMasks masks(mesh, conditions,
-    static_cast<palpate::MaskShape>(this->Mask), this->RadiusFor(mesh.meanEdgeLength()));
-  const palpate::VertexMask mask = masks.at(static_cast<int>(this->Vertex));
+  const palpate::VertexMask mask =
+    palpate::makeMasks(mesh, conditions, this->Settings(mesh.meanEdgeLength()))
+      ->at(static_cast<int>(this->Vertex));
   Eigen::VectorXd density = Eigen::VectorXd::Zero(mesh.vertexCount());
   density(mask.nodes) = mask.density;
   convert::setPointNumbers(output, palpate::arrays::PressureMask, density);
+  convert::setFieldNumber(output, palpate::arrays::MaskSupportShare, mask.supportShare);
+  convert::setFieldNumber(output, palpate::arrays::MaskBeyondShare, mask.beyondShare);
+  output->GetPointData()->RemoveArray(palpate::arrays::TorqueMask);
+  if (this->Tensor)
+  {
+    const palpate::TorqueMask torque = palpate::torqueMask(mesh, mask);
+    std::vector<Eigen::Matrix3d> tensors(mesh.vertexCount(), Eigen::Matrix3d::Zero());
+    for (std::size_t j = 0; j < torque.nodes.size(); ++j)
+    {
+      tensors[torque.nodes[j]] = torque.tensor(static_cast<int>(j));
+    }
+    convert::setPointMatrices(output, palpate::arrays::TorqueMask, tensors);
+  }
   convert::setPointNumbers(output, palpate::arrays::VertexArea, mesh.vertexAreas());
 }
