@@ -16,7 +16,9 @@ namespace palpate {
 /// What of the displacement a point-like contact goes by.
 enum class DisplacementMeasure {
   /// The vertex's own, u_i = B f (eq. 32). B is not symmetric: what is served is the S nearest to
-  /// it. It says where the material under a probe's tip is: a sphere's centre by Hertz.
+  /// it. It says where the material under a probe's tip is: under a Hertzian mask of the contact's
+  /// radius it is a sphere's F / delta by Hertz, of which the mean makes 5 / 4. It is also the
+  /// smoother of the two, as the mean counts what single nodes yield by the square of the mask.
   Vertex,
   /// The mean under the same mask, sum of a_j rho_j u_j = M f: the displacement on which the mask's
   /// force does its work. M is symmetric by reciprocity, as it stands. It yields less, by a fourth

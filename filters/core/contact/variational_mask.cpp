@@ -103,10 +103,15 @@ VariationalMasks::VariationalMasks(const SurfaceMesh& mesh, const BoundaryCondit
                                 std::to_string(tail));
   const std::vector<int> free = conditions.freeNodes();
   free_ = std::make_unique<Factors>(mesh, free, penalty, length);
+  supportShares_ = Eigen::VectorXd::Zero(mesh.vertexCount());
   if (static_cast<int>(free.size()) == mesh.vertexCount()) return;
+  // Without a support, the mask around a vertex puts on the fixed ones the sum of a_u (A^-1)_uv. A
+  // is symmetric: one solve gives it for all.
   std::vector<int> all(mesh.vertexCount());
   std::iota(all.begin(), all.end(), 0);
-  beyond_ = std::make_unique<Factors>(mesh, all, penalty, length);
+  Eigen::VectorXd onSupport = Eigen::VectorXd::Zero(mesh.vertexCount());
+  for (int v : conditions.fixedNodes()) onSupport[v] = mesh.vertexAreas()[v];
+  supportShares_ = Factors(mesh, all, penalty, length).solve(onSupport).cwiseMax(0).cwiseMin(1);
 }
 
 VariationalMasks::~VariationalMasks() = default;
@@ -155,14 +160,7 @@ VertexMask VariationalMasks::at(int vertex) const {
   VertexMask mask;
   mask.density = whole(nodes) / total;
   mask.nodes = std::move(nodes);
-  if (beyond_) {
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh_.vertexCount());
-    load[vertex] = 1;
-    const Eigen::VectorXd density = beyond_->solve(load);
-    for (int v : conditions_.fixedNodes())
-      mask.supportShare += mesh_.vertexAreas()[v] * std::abs(density[v]);
-    mask.supportShare = std::min(1., mask.supportShare);
-  }
+  mask.supportShare = supportShares_[vertex];
   return mask;
 }
 

@@ -56,8 +56,8 @@ class VariationalMasks : public VertexMasks {
  private:
   struct Factors;
   double tail_;
-  std::unique_ptr<const Factors> free_;    ///< of the free vertices' A
-  std::unique_ptr<const Factors> beyond_;  ///< of all vertices'; null where all are free
+  std::unique_ptr<const Factors> free_;  ///< of the free vertices' A
+  Eigen::VectorXd supportShares_;        ///< #V, of all vertices' A
 };
 
 }  // namespace palpate
