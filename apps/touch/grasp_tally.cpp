@@ -42,9 +42,11 @@ void GraspTally::addFrame(const ToolTouch& touch) {
   for (std::size_t i = 0; i < largest_.size(); ++i)
     largest_[i] = std::max(largest_[i], forceOf(touch, kHandFingers[i]).norm());
   std::set<int> now;
-  for (int i = 0; i < touch.contact().watchedCount(); ++i)
-    if (touch.contact().watched(i).status != ContactStatus::Open)
-      now.insert(touch.contact().watched(i).vertex);
+  for (int i = 0; i < touch.contact().watchedCount(); ++i) {
+    const ContactSite& site = touch.contact().site(i);
+    if (touch.contact().watched(i).status == ContactStatus::Open) continue;
+    for (int p = 0; p < site.count; ++p) now.insert(site.parts[p].node);
+  }
   int changed = 0;
   for (int node : now) changed += 1 - static_cast<int>(held_.count(node));
   for (int node : held_) changed += 1 - static_cast<int>(now.count(node));
