@@ -165,6 +165,20 @@ def haptics_rows(folder):
             yield words, goal, f"{figures} µs"
 
 
+def servo_rows(folder):
+    run = Results(folder / "servo.json")
+    case = next(c for c in run.cases if c.startswith("devicesBesideFrames/tools:2/n:2562"))
+    for prefix, words in (("", "tick of two balls with friction, n = 2562, {contacts:.0f} vertices under force, "
+                               "beside {frames_a_second:.0f} deformations of all vertices a second, "
+                               "p50 / p99 / p99.9 / max of the CPU time"),
+                          ("late_", "the same, how late the ticks begin (the system's share)")):
+        counters = {name: run.counter(case, name) for name in ("contacts", "frames_a_second")}
+        figures = " / ".join(f"{run.counter(case, prefix + p):.3g}" for p in ("p50", "p99", "p99_9", "max"))
+        yield words.format(**counters), "" if prefix else "≤ 1000 µs", f"{figures} µs"
+    yield ("the same, each deformation, p50 / max of the CPU time", "",
+           f"{run.counter(case, 'frame_p50'):.3g} / {run.counter(case, 'frame_max'):.3g} µs")
+
+
 def print_table(header, rows):
     print("| " + " | ".join(header) + " |")
     print("|" + "---|" * len(header))
@@ -208,7 +222,7 @@ def main():
     folder = Path(sys.argv[1])
     rows = []
     for part in (assembly_rows, solve_rows, precompute_rows, deformation_rows, contact_rows,
-                 haptics_rows):
+                 haptics_rows, servo_rows):
         rows += part(folder)
     print_table(("quantity", "goal", "measured"), rows)
     print_paper_tables(folder)

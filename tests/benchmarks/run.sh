@@ -30,5 +30,6 @@ measure deformation deformation_benchmark 15 'n:(642|2562)'
 measure contact contact_benchmark 15 'n:642'
 measure haptics haptics_benchmark 5 '(tickOf.*/n:642|emptyTick)'
 measure haptics_large haptics_benchmark 3 'tickOf.*/n:2562'
+measure servo servo_benchmark 1 'devicesBesideFrames/tools:2'
 measure james_pai james_pai_benchmark 5 '.*'
 python3 "$here/report.py" "$results"

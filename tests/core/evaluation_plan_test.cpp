@@ -196,6 +196,29 @@ TEST(EvaluationPlans, PredictTheTicksOfAStroke) {
     }
 }
 
+/// The same of balls smaller than triangles, which are touched inside.
+TEST(EvaluationPlans, PredictTheTicksOfSmallBalls) {
+  for (const double radius : {0.03, 0.05, 0.07})
+    for (const double depth : {0.02, 0.04}) {
+      if (depth > radius) continue;
+      const Scene scene =
+          sceneOf("\"shape\": \"sphere\", \"radius\": " + std::to_string(radius), "");
+      ExpectedTouch touch;
+      touch.depth = depth;
+      touch.speed = 1;
+      Course course(scene);
+      course.stroke(depth, radius, touch.speed, scene.servo.rate);
+      const EvaluationPlan plan = planOf(scene, touch);
+      const std::string what =
+          "radius " + std::to_string(radius) + ", depth " + std::to_string(depth);
+      double bytes = 0;
+      for (const PlannedWork& work : plan.tick)
+        if (work.columns > 0) bytes += work.bytes;
+      expectNear(bytes, course.tick.bytes, what);
+      expectNear(plan.watched, course.watched, what);
+    }
+}
+
 /// Ticks of points ask Green's functions for nothing.
 TEST(EvaluationPlans, LetPointsTickWithoutRows) {
   const Scene scene = sceneOf(kPoint, "");

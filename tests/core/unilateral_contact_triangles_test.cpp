@@ -89,7 +89,7 @@ Eigen::Vector3d outAlong(const Eigen::Vector3d& way, const MeshShape& surface, d
 TEST(UnilateralContactTriangles, NoPointOfTheSurfaceEndsInASmallBall) {
   const TouchedBody& body = coarseSphere();
   const MeshShape surface(body.mesh);
-  for (double radius : {0.3, 0.1, 0.03, 0.01}) {
+  for (double radius : {0.1, 0.03, 0.01}) {
     const auto shape = std::make_shared<SphereShape>(radius);
     UnilateralContact contact(body.greens, body.mesh, {{shape, 0}}, still());
     for (int tick = 0; tick < 150; ++tick) {  // over some eight triangles

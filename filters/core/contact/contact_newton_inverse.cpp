@@ -13,7 +13,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kRegularisation = 1e-8;  ///< epsilon; r W is of the order of one
+constexpr double kRegularisation = 1e-6;  ///< epsilon; r W is of the order of one
 
 }  // namespace
 

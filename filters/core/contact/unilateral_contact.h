@@ -41,10 +41,11 @@ struct UnilateralContactSettings {
 /// enter an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all
 /// obstacles follow together, from the rows of watched points alone ([JP01] sections 4.3 and 5.3).
 ///
-/// The points are the vertices, and in each triangle longer than half the smallest radius of a
-/// rigid tool the one that lies deepest in it as the surface is deformed: the centre of pressure,
-/// whose force acts on the corners by its barycentric coordinates. It follows the tool from step to
-/// step.
+/// The points are the vertices, and in each triangle with an edge longer than one and a half times
+/// the smallest radius of a rigid tool, which vertices alone would let through, the one that lies
+/// deepest in it as the surface is deformed: the centre of pressure, whose force acts on the
+/// corners by its barycentric coordinates. It follows the tool from step to step. On tools with
+/// sharp edges the triangle's normal is that of the contact.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when its obstacle can have come near
@@ -146,6 +147,8 @@ class UnilateralContact {
   void lookInside(int obstacle, int slot) noexcept;
   bool watchInside(int obstacle, int slot, const FacePoint& point) noexcept;
   void moveInside(int contact, const FacePoint& point) noexcept;
+  void inheritSlip(int contact, const Eigen::Vector3d& place) noexcept;
+  int coinciding(int obstacle, const Eigen::Vector3d& restPlaceThere, int contact) const noexcept;
   bool followInside(bool betweenSteps) noexcept;
 
   void linearise() noexcept;

@@ -13,11 +13,16 @@
 namespace palpate {
 namespace {
 
+/// Of a tool's smallest radius: a ball between the corners of an equilateral triangle with edges so
+/// long is half its radius below them, and of 1.73 times falls through. Shorter edges would give
+/// more contacts than nodes, which tell nothing new.
+constexpr double kLargeEdge = 1.5;
 /// Of the margin, how far an obstacle moves before a triangle that is near, but has its deepest
 /// point in a corner or on another part of the tool, is looked at again: the depth missed between
 /// is the square of it over twice the tool's radius.
 constexpr double kSoon = 1.0 / 32;
 constexpr double kNear = 1.0 / 4;  ///< of the margin, the distance at which triangles are watched
+constexpr double kNeighbourhood = 0.1;  ///< of the mean edge
 constexpr int kBalanceSteps = 12;
 constexpr double kSiteAccuracy = 1e-4;  ///< of barycentric coordinates
 
@@ -32,7 +37,7 @@ struct UnilateralContact::FacePoint {
 };
 
 void UnilateralContact::findLargeTriangles(Moving& moving) const {
-  const double limit = moving.obstacle.shape->smallestRadius() / 2;
+  const double limit = kLargeEdge * moving.obstacle.shape->smallestRadius();
   for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle) {
     const Eigen::Matrix3d corners = restCorners(triangle);
     for (int k = 0; k < 3; ++k)
@@ -143,7 +148,9 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
   if (point.near.distance > nearness)
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
   else if (!point.isCorner() && point.near.normal.dot(point.faceNormal) <= kLargestCosine &&
-           isDeepestPart(obstacle, point) && watchInside(obstacle, slot, point))
+           isDeepestPart(obstacle, point) &&
+           coinciding(obstacle, corners * point.barycentric, -1) < 0 &&
+           watchInside(obstacle, slot, point))
     lookAt = std::numeric_limits<double>::infinity();
   else
     lookAt = travelled_ + kSoon * margin_;
@@ -156,10 +163,39 @@ bool UnilateralContact::watchInside(int obstacle, int slot, const FacePoint& poi
     overflowed_ = true;
     return false;
   }
-  anchors_[solver_.count() - 1] = {
+  const int contact = solver_.count() - 1;
+  anchors_[contact] = {
       obstacle, -1, slot, Eigen::Vector3d::Constant(NAN), point.near.distance, point.faceNormal};
   ++transitions_;
+  inheritSlip(contact, point.place);
   return true;
+}
+
+/// A contact that goes on over an edge sticks, or has slipped, as it did before.
+void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) noexcept {
+  Anchor& anchor = anchors_[contact];
+  const RigidPose& pose = obstacles_[anchor.obstacle].pose;
+  double nearest = kNeighbourhood * mesh_->meanEdgeLength();
+  for (int other = 0; other < contact; ++other) {
+    const double away = (restPlace(other) - restPlace(contact)).norm();
+    if (anchors_[other].obstacle != anchor.obstacle || away > nearest ||
+        solver_.force(other).isZero(0))
+      continue;
+    nearest = away;
+    anchor.place = pose.toOwn(place - placeOf(other) + pose.toWorld(anchors_[other].place));
+  }
+}
+
+/// Another contact inside a triangle of an obstacle's that is at a place of the undeformed surface,
+/// on the edge between them; -1 if there is none.
+int UnilateralContact::coinciding(int obstacle, const Eigen::Vector3d& restPlaceThere,
+                                  int contact) const noexcept {
+  constexpr double together = 1e-3;
+  for (int other = 0; other < solver_.count(); ++other)
+    if (other != contact && anchors_[other].vertex < 0 && anchors_[other].obstacle == obstacle &&
+        (restPlace(other) - restPlaceThere).norm() < together * mesh_->meanEdgeLength())
+      return other;
+  return -1;
 }
 
 /// Lets a contact go on to another point of its triangle. If it sticks, it sticks as far from
@@ -181,8 +217,8 @@ void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept
 }
 
 /// Brings contacts inside triangles to where the obstacles are deepest. Between steps, stops
-/// watching those that bear nothing and are well away, in a corner or on another part. @return
-/// whether there were any.
+/// watching those that bear nothing and are well away or in a corner, those on another part, and
+/// one of two that have met on an edge. @return whether there were any.
 bool UnilateralContact::followInside(bool betweenSteps) noexcept {
   const auto isInside = [](const Anchor& anchor) { return anchor.vertex < 0; };
   if (std::none_of(anchors_.begin(), anchors_.begin() + solver_.count(), isInside)) return false;
@@ -197,11 +233,12 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
     const bool idle = solver_.force(contact).isZero(0);
     const FacePoint point = facePoint(
         obstacle, corners, idle ? deepestIn(obstacle, corners) : balance(contact, corners));
-    if (!betweenSteps || !idle ||
-        (!point.isCorner() && point.near.distance < 2 * nearness &&
-         isDeepestPart(obstacle, point))) {
+    const bool isElsewhere = idle && (point.isCorner() || point.near.distance >= 2 * nearness);
+    if (!betweenSteps || (!isElsewhere && isDeepestPart(obstacle, point))) {
       if (!idle || point.near.distance < nearness / 2) moveInside(contact, point);
-      continue;
+      const int twin = betweenSteps ? coinciding(obstacle, restPlace(contact), contact) : -1;
+      if (twin < 0) continue;
+      solver_.setForce(twin, solver_.force(twin) + solver_.force(contact));
     }
     moving.lookInside[slot] =
         travelled_ + std::max(kSoon * margin_, wayLeft(point.near.distance, nearness));

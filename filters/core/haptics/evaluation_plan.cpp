@@ -14,6 +14,7 @@
 
 #include "contact/inverse_updates.h"
 #include "contact/pressure_mask.h"
+#include "haptics/touched_nodes.h"
 #include "mesh/triangle_tree.h"
 
 namespace palpate {
@@ -33,56 +34,6 @@ constexpr double kRankThree = 162;    ///< an update of the inverse, a pair of c
 constexpr double kPointTick = 600;    ///< a point: stiffness, its norm, slip
 constexpr double kProximity = 30;     ///< a distance to a ball
 constexpr double kTorque = 15;        ///< a contact's torque
-
-/// Nodes that a tool touches.
-struct Touched {
-  double loaded, watched;
-  double rim;    ///< nodes that a metre of travel brings in
-  double looks;  ///< at nodes that it has pressed away, in a metre of travel
-};
-
-/// The gap outside a Hertz contact (K. L. Johnson, "Contact Mechanics", 1985, eq. 3.42a): of a ball
-/// of an effective radius, pressed in by a depth.
-double gapAt(double r, double effective, double depth) {
-  const double a = std::min(r, std::sqrt(effective * depth));
-  const double sunk =
-      ((2 * a * a - r * r) * std::asin(a / r) + a * std::sqrt(r * r - a * a)) / (kPi * effective);
-  return r * r / (2 * effective) - depth + sunk;
-}
-
-/// Where it is so wide.
-double radiusOfGap(double gap, double effective, double depth) {
-  double low = std::sqrt(effective * depth), high = std::sqrt(2 * effective * (depth + gap));
-  for (int step = 0; step < 60; ++step) {
-    const double middle = (low + high) / 2;
-    (gapAt(middle, effective, depth) < gap ? low : high) = middle;
-  }
-  return high;
-}
-
-/// What is left behind is watched to twice the margin. A rigid tool watches the surface as it is
-/// deformed, and looks at nodes that are near but for that at half the way to the watch.
-Touched touchedBy(double radius, const BodySizes& body, double depth, double margin, bool rigid) {
-  const double effective = 1 / (1 / radius + 1 / body.radius);
-  const double end = std::sqrt(2 * effective * (depth + margin));  // near, undeformed
-  const double last = std::sqrt(2 * effective * (depth + 2 * margin));
-  const double ahead = rigid ? radiusOfGap(margin, effective, depth) : end;
-  const double behind = rigid ? radiusOfGap(2 * margin, effective, depth) : last;
-  // A ball's middle goes round the body on a larger circle than its contact.
-  const double lever = std::isfinite(radius) ? 1 + radius / body.radius : 1;
-  double looks = 2 * end;  // once as they come near
-  for (const double begin : {ahead, behind}) {  // a half of the circle each
-    constexpr int steps = 64;
-    const double width = std::max(0.0, end - begin) / steps;
-    for (int step = 0; step < steps; ++step) {
-      const double r = begin + (step + 0.5) * width;
-      looks += kPi * r * width * 2 / (gapAt(r, effective, depth) - margin / 2);
-    }
-  }
-  return {kPi * effective * depth / body.nodeArea,
-          kPi * (ahead * ahead + behind * behind) / 2 / body.nodeArea, 2 * ahead / body.nodeArea,
-          rigid ? looks * lever / body.nodeArea : 0};
-}
 
 /// Shapes of a tool that touch at a time, and their radius, m.
 std::pair<int, double> roundingOf(const SceneTool& tool) {
@@ -155,14 +106,16 @@ class Planner {
 
   void planShapes() {
     const double margin = scene_.solver.margin > 0 ? scene_.solver.margin : first_.edge / 2;
-    Touched sum{0, 0, 0, 0};
+    TouchedNodes sum;
     double parts = 0;
     const auto add = [&](double count, double radius, bool rigid) {
-      const Touched one = touchedBy(radius, first_, depth(first_), margin, rigid);
+      const TouchedNodes one = touchedNodes(radius, first_, depth(first_), margin, rigid);
       sum.loaded += count * one.loaded;
       sum.watched += count * one.watched;
       sum.rim += count * one.rim;
       sum.looks += count * one.looks;
+      sum.inside += count * one.inside;
+      sum.pressedInside += count * one.pressedInside;
       return one.loaded;
     };
     for (const SceneTool& tool : scene_.tools) {
@@ -183,11 +136,26 @@ class Planner {
                3 * kNumber * bodies_[i].nodes});
     }
     const double most = std::min(scene_.solver.capacity, first_.nodes);
-    plan_.watched = std::min(most, sum.watched);
+    plan_.watched = std::min(most, sum.watched + sum.inside);
     loadedOf_[0] = std::min(plan_.watched, sum.loaded);
+    if (sum.inside > 0) planTriangles(sum);
     const double way = touch_.speed / scene_.servo.rate;
     planSolve(sum.rim * way, sum.looks * way, parts);
     planSolverMemory(parts);
+  }
+
+  /// Points inside triangles follow their tools: those near it move, at the cost of a new border of
+  /// the compliance, and all look at their corners under the forces of the moment.
+  void planTriangles(const TouchedNodes& sum) {
+    constexpr double moving = 0.7, looking = 1.2;  // shares, in strokes of balls of all sizes
+    const double corners = 3 * sum.inside, pressed = 3 * sum.pressedInside;
+    const double steps = scene_.solver.linearisations;
+    const double gathered =
+        steps * (moving * sum.inside * (3 * (sum.watched + corners) + kBlock) + 3 * pressed);
+    const double summed = steps * looking * corners * pressed;
+    plan_.tick.push_back({"points inside triangles", corners, pressed,
+                          kTurnedBlock * gathered + 2 * kBlock * summed,
+                          kNumber * kBlock * (gathered + summed)});
   }
 
   /// @param entering  vertices that enter the watch in a tick, and leave it.
@@ -345,6 +313,15 @@ BodySizes sizesOf(const SceneBody& body, const Scene& scene) {
   sizes.nodeArea = mesh.vertexAreas().mean();
   sizes.edge = mesh.meanEdgeLength();
   sizes.radius = mesh.diagonal() / (2 * std::sqrt(3.0));
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.points().col(mesh.triangles()(k, f)) -
+                                   mesh.points().col(mesh.triangles()((k + 1) % 3, f)))
+                                      .norm());
+    sizes.longestEdges.push_back(longest);
+  }
+  std::sort(sizes.longestEdges.begin(), sizes.longestEdges.end());
   sizes.reciprocal = body.greens->info().reciprocal;
   if (scene.isOfPoints()) measureMasks(body, scene.effects, sizes);
   return sizes;

@@ -17,6 +17,7 @@ struct BodySizes {
   double edge = 0;      ///< m, mean
   double radius = 0;    ///< m, of the ball with the same diagonal of its bounding box
   bool reciprocal = false;
+  std::vector<double> longestEdges;  ///< m, of each triangle, ascending
   // Of pressure masks, if points touch it:
   double maskNodes = 0;         ///< mean number of nodes
   double maskNodesSquared = 0;  ///< mean of its square
@@ -57,7 +58,8 @@ struct PlannedMemory {
 /// (his, outside the circle; of partners that of the undeformed bodies, r^2 / (2 R_e) - d) is less
 /// than the solver's margin, and behind a tool that moves to twice that. A mesh is taken as flat, a
 /// hand as five fingertips. Depths below half an edge touch more vertices than this says: at least
-/// one.
+/// one. Tools smaller than two thirds of an edge touch the insides of triangles: as many as lie
+/// within reach of their foot, and those that their dent brings near, by a fit to strokes of balls.
 ///
 /// What is asked of Green's functions, and the memory, are within a fifth of what tests count. The
 /// contact solver's own flops and bytes follow from the numbers of vertices, iterations and updates
