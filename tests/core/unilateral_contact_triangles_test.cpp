@@ -99,7 +99,8 @@ TEST(UnilateralContactTriangles, NoPointOfTheSurfaceEndsInASmallBall) {
       const RigidPose pose = at(outAlong(way, surface, radius - depth));
       EXPECT_LE(contact.step(&pose).residual, 1e-9) << radius << ' ' << tick;
       if (tick % 5 == 0) {
-        EXPECT_LE(deepest(contact, body, *shape, pose), 1e-6 * radius) << radius << ' ' << tick;
+        // ContactSite::kSpread, .5 %, of the depth; the dent's share of which is more than half.
+        EXPECT_LE(deepest(contact, body, *shape, pose), 0.01 * depth) << radius << ' ' << tick;
       }
       if (tick > 0) {
         EXPECT_GT(contact.force(0).norm(), 0) << radius << ' ' << tick;
@@ -146,7 +147,7 @@ TEST(UnilateralContactTriangles, ABallThatSticksIsHeldWhereItLanded) {
     EXPECT_LE(contact.step(&pose).residual, 1e-9);
     const Eigen::Vector3d force = contact.force(0);
     EXPECT_LE(std::hypot(force.x(), force.y()), 0.5 * force.z() * 1.05);  // the triangle tilts
-    EXPECT_GE(-force.x(), last - 3e-3 * pressure) << tick;  // grows while it sticks, then stays
+    EXPECT_GE(-force.x(), last - 0.01 * pressure) << tick;  // grows while it sticks, then stays
     last = -force.x();
   }
   EXPECT_NEAR(last, 0.5 * contact.force(0).z(), 0.05 * pressure);
@@ -163,7 +164,7 @@ TEST(UnilateralContactTriangles, ABarAcrossTrianglesIsHeldAlongItsLength) {
     pose.position.z() = std::max(1.0, 1.03 - 5e-4 * tick);
     contact.step(&pose);
   }
-  EXPECT_LE(deepest(contact, body, *bar, pose), 2e-5);
+  EXPECT_LE(deepest(contact, body, *bar, pose), 1e-4);  // kSpread of the depth, .01, each
   const Wrench rest = contact.wrench(0);
   EXPECT_GT(rest.force.z(), 1e-3);
   for (int tick = 0; tick < 20; ++tick) {  // it has come to rest
@@ -201,7 +202,8 @@ TEST(UnilateralContactTriangles, OverlappingPartsPressOnceWhereTheyCoincide) {
     const RigidPose poses[2] = {pose, pose};
     one.step(&pose);
     both.step(poses);
-    EXPECT_LE((both.force(0) + both.force(1) - one.force(0)).norm(), 0.01 * one.force(0).norm())
+    // Each of two yields by kSpread alone.
+    EXPECT_LE((both.force(0) + both.force(1) - one.force(0)).norm(), 0.03 * one.force(0).norm())
         << tick;
   }
 }

@@ -98,7 +98,17 @@ Eigen::Matrix3d ContactCompliance::ownBlock(const ContactSite& site) const noexc
              (orientations_[row.body] * block * orientations_[row.body].transpose());
     }
   }
-  return own;
+  return site.spread > 0 ? (own + site.spread * (meanBlock(site) - own)).eval() : own;
+}
+
+/// The compliances of a site's nodes one by one, weighted.
+Eigen::Matrix3d ContactCompliance::meanBlock(const ContactSite& site) const noexcept {
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (int p = 0; p < site.count; ++p) {
+    ContactSite alone = ContactSite::atNode(site.parts[p].body, site.parts[p].node);
+    mean += std::abs(site.parts[p].weight) * ownBlock(alone);
+  }
+  return mean;
 }
 
 bool ContactCompliance::hasColumns(const ContactSite& site) const noexcept {

@@ -25,14 +25,20 @@ struct ContactSite {
   };
   int count = 0;
   std::array<Part, 4> parts;
+  /// By how much of the way its compliance is raised to the mean of its nodes' own: nodes share a
+  /// force between them, a place on the body cannot. Above 0 no number of contacts on few nodes
+  /// contradict each other.
+  double spread = 0;
 
   static ContactSite atNode(int body, int node) { return {1, {{{body, node, 1.0}}}}; }
+  static constexpr double kSpread = 0.005;
   static ContactSite inTriangle(int body, const Eigen::Vector3i& nodes,
                                 const Eigen::Vector3d& barycentric) {
     return {3,
             {{{body, nodes[0], barycentric[0]},
               {body, nodes[1], barycentric[1]},
-              {body, nodes[2], barycentric[2]}}}};
+              {body, nodes[2], barycentric[2]}}},
+            kSpread};
   }
 };
 
@@ -92,6 +98,7 @@ class ContactCompliance {
   bool hasColumns(const ContactSite& site) const noexcept;
   void gatherBorder(const ContactSite& site) noexcept;
   Eigen::Matrix3d ownBlock(const ContactSite& site) const noexcept;
+  Eigen::Matrix3d meanBlock(const ContactSite& site) const noexcept;
   double* mutableColumn(int k) { return matrix_.data() + std::size_t(k) * stride_; }
 
   std::vector<std::shared_ptr<const GreensFunctions>> bodies_;

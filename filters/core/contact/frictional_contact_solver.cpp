@@ -127,20 +127,24 @@ void FrictionalContactSolver::updateDisplacements() noexcept {
   compliance_->multiply(forces_.data(), displacement_.data());
 }
 
-/// Displacements, the residual f - P(f - r v) and the shares; returns the largest residual over
-/// the largest force.
+/// Displacements, the residual f - P(f - r v) and the shares; returns the largest residual, N, and
+/// sets the largest force.
 double FrictionalContactSolver::evaluate() noexcept {
   updateDisplacements();
-  double worst = 0, largest = 0;
+  double worst = 0;
+  largest_ = 0;  // squared
   for (int i = 0; i < count(); ++i) {
     const Projection projection = project(i);
     wanted_[i] = projection.share;
     status_[i] = projection.status;
     residual_.segment<3>(3 * i) = force(i) - projection.force;
-    worst = std::max(worst, residual_.segment<3>(3 * i).squaredNorm());
-    largest = std::max({largest, force(i).squaredNorm(), projection.force.squaredNorm()});
+    const double size = residual_.segment<3>(3 * i).squaredNorm();
+    if (std::isnan(size)) return size;
+    worst = std::max(worst, size);
+    largest_ = std::max({largest_, force(i).squaredNorm(), projection.force.squaredNorm()});
   }
-  return worst > 0 ? std::sqrt(worst / largest) : worst == 0 ? 0 : worst;  // NaN stays NaN
+  largest_ = std::sqrt(largest_);
+  return std::sqrt(worst);
 }
 
 bool FrictionalContactSolver::isStale(int contact) const noexcept {
@@ -252,7 +256,7 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     if (certificate.iterations > 0)
       withoutGain = residual < kEnoughGain * goal ? 0 : withoutGain + 1;
     goal = std::min(goal, residual);
-    if (best <= settings_.tolerance / 2) break;  // the rest is for putting forces into their cones
+    if (residual <= settings_.tolerance / 2 * largest_) break;  // the rest is for the cones
     certificate.budgetCut = certificate.iterations == settings_.largestIterations;
     if (certificate.budgetCut) break;
     if (withoutGain > kPatience || !std::isfinite(residual)) {
@@ -275,7 +279,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
   }
   forces_.head(size) = best_.head(size);
   certificate.coneViolation = clipped();
-  certificate.residual = evaluate();
+  const double residual = evaluate();
+  certificate.residual = residual > 0 ? residual / largest_ : residual;
   for (int i = 0; i < count(); ++i) certificate.contactCount += status_[i] != ContactStatus::Open;
   unsettled_ = certificate.budgetCut;
   certificate.failed = !std::isfinite(certificate.residual) || !forces_.head(size).allFinite();

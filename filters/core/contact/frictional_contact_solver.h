@@ -118,6 +118,7 @@ class FrictionalContactSolver {
   Eigen::VectorXd forces_, displacement_, residual_, best_;
   int cursor_ = 0;          ///< contact whose rows were replaced last because they were stale
   int refreshed_ = 0;       ///< and because steps did not gain
+  double largest_ = 0;      ///< force at the last evaluation, N
   bool unsettled_ = false;  ///< whether the last solve was cut
 };
 

@@ -148,7 +148,6 @@ class UnilateralContact {
   bool watchInside(int obstacle, int slot, const FacePoint& point) noexcept;
   void moveInside(int contact, const FacePoint& point) noexcept;
   void inheritSlip(int contact, const Eigen::Vector3d& place) noexcept;
-  int coinciding(int obstacle, const Eigen::Vector3d& restPlaceThere, int contact) const noexcept;
   bool followInside(bool betweenSteps) noexcept;
 
   void linearise() noexcept;

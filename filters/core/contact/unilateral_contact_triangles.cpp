@@ -148,9 +148,7 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
   if (point.near.distance > nearness)
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
   else if (!point.isCorner() && point.near.normal.dot(point.faceNormal) <= kLargestCosine &&
-           isDeepestPart(obstacle, point) &&
-           coinciding(obstacle, corners * point.barycentric, -1) < 0 &&
-           watchInside(obstacle, slot, point))
+           isDeepestPart(obstacle, point) && watchInside(obstacle, slot, point))
     lookAt = std::numeric_limits<double>::infinity();
   else
     lookAt = travelled_ + kSoon * margin_;
@@ -186,18 +184,6 @@ void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) n
   }
 }
 
-/// Another contact inside a triangle of an obstacle's that is at a place of the undeformed surface,
-/// on the edge between them; -1 if there is none.
-int UnilateralContact::coinciding(int obstacle, const Eigen::Vector3d& restPlaceThere,
-                                  int contact) const noexcept {
-  constexpr double together = 1e-3;
-  for (int other = 0; other < solver_.count(); ++other)
-    if (other != contact && anchors_[other].vertex < 0 && anchors_[other].obstacle == obstacle &&
-        (restPlace(other) - restPlaceThere).norm() < together * mesh_->meanEdgeLength())
-      return other;
-  return -1;
-}
-
 /// Lets a contact go on to another point of its triangle. If it sticks, it sticks as far from
 /// there.
 void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept {
@@ -217,8 +203,8 @@ void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept
 }
 
 /// Brings contacts inside triangles to where the obstacles are deepest. Between steps, stops
-/// watching those that bear nothing and are well away or in a corner, those on another part, and
-/// one of two that have met on an edge. @return whether there were any.
+/// watching those that bear nothing and are well away or in a corner, and those on another part.
+/// @return whether there were any.
 bool UnilateralContact::followInside(bool betweenSteps) noexcept {
   const auto isInside = [](const Anchor& anchor) { return anchor.vertex < 0; };
   if (std::none_of(anchors_.begin(), anchors_.begin() + solver_.count(), isInside)) return false;
@@ -236,9 +222,7 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
     const bool isElsewhere = idle && (point.isCorner() || point.near.distance >= 2 * nearness);
     if (!betweenSteps || (!isElsewhere && isDeepestPart(obstacle, point))) {
       if (!idle || point.near.distance < nearness / 2) moveInside(contact, point);
-      const int twin = betweenSteps ? coinciding(obstacle, restPlace(contact), contact) : -1;
-      if (twin < 0) continue;
-      solver_.setForce(twin, solver_.force(twin) + solver_.force(contact));
+      continue;
     }
     moving.lookInside[slot] =
         travelled_ + std::max(kSoon * margin_, wayLeft(point.near.distance, nearness));
