@@ -224,5 +224,32 @@ TEST(VariationalMask, WithoutALengthIsRefused) {
   EXPECT_TRUE(isRefused([&] { masks.densityAt({-1, {1, 0, 0}}); }, "there is no triangle -1"));
 }
 
+TEST(VariationalMask, SmoothsAWaveByItsWaveNumberAndKeepsConstantsAndTheIntegral) {
+  // On the unit sphere div grad of a spherical harmonic of degree l is -l (l + 1) times it.
+  const Surface sphere = freeSphere(4);
+  const Eigen::Matrix3Xd& x = sphere.mesh->points();
+  const Eigen::VectorXd first = x.row(2), second = (x.row(0).array() * x.row(1).array());
+  const double length = 0.4;
+  for (MaskPenalty penalty : kPenalties) {
+    const VariationalMasks masks = sphere.masks(penalty, length);
+    const auto passed = [&](double degree) {
+      const double square = length * length * degree * (degree + 1);
+      return 1 / (1 + (penalty == MaskPenalty::Gradient ? square : square * square));
+    };
+    // Within the square of the edge, 0.07.
+    EXPECT_LT((masks.smoothed(first) - passed(1) * first).norm(), 0.01 * first.norm());
+    EXPECT_LT((masks.smoothed(second) - passed(2) * second).norm(), 0.01 * second.norm());
+  }
+  const Surface held = heldSphere();
+  const VariationalMasks masks = held.masks(MaskPenalty::Biharmonic, length);
+  const Eigen::VectorXd field = held.mesh->points().row(0).transpose().array().exp();
+  double before = 0;
+  for (int v : held.conditions.freeNodes()) before += held.mesh->vertexAreas()[v] * field[v];
+  EXPECT_NEAR(held.force(masks.smoothed(field)) / before, 1, 1e-11);
+  const Eigen::VectorXd ones = masks.smoothed(Eigen::VectorXd::Ones(field.size()));
+  for (int v : held.conditions.freeNodes()) EXPECT_NEAR(ones[v], 1, 1e-10);
+  EXPECT_THROW(masks.smoothed(Eigen::VectorXd::Ones(3)), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -146,6 +146,17 @@ Eigen::VectorXd VariationalMasks::densityAt(const SurfacePoint& point) const {
   return whole;
 }
 
+Eigen::VectorXd VariationalMasks::smoothed(const Eigen::VectorXd& values) const {
+  if (values.size() != mesh_.vertexCount())
+    throw std::invalid_argument("a field on this surface has " +
+                                std::to_string(mesh_.vertexCount()) + " values, not " +
+                                std::to_string(values.size()));
+  const Eigen::VectorXd areas = mesh_.vertexAreas()(free_->vertices);
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(mesh_.vertexCount());
+  whole(free_->vertices) = free_->solve(areas.cwiseProduct(values(free_->vertices)));
+  return whole;
+}
+
 VertexMask VariationalMasks::at(int vertex) const {
   const Eigen::VectorXd whole = column(vertex);
   const auto share = [&](int v) { return mesh_.vertexAreas()[v] * whole[v]; };

@@ -53,6 +53,14 @@ class VariationalMasks : public VertexMasks {
   /// of the columns of its triangle (eq. 38). What falls on fixed vertices goes into the support.
   Eigen::VectorXd densityAt(const SurfacePoint& point) const;
 
+  /// The smooth part of a field, s = A^-1 (a f) in all free vertices: what makes the integral of
+  /// (f - s)^2 + (B s)^2 least. Constants are left as they are, and so is the integral; a wave of
+  /// wave number k is passed by 1 / (1 + (alpha k)^2), by the biharmonic 1 / (1 + (alpha k)^4).
+  /// @param values  #V, finite where free; others do not count.
+  /// @return #V, zero where fixed.
+  /// @throws std::invalid_argument for another number of values.
+  Eigen::VectorXd smoothed(const Eigen::VectorXd& values) const;
+
  private:
   struct Factors;
   double tail_;

@@ -8,6 +8,7 @@
 #include "mesh/geodesic_distance.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/polygon_file.h"
+#include "mesh/remeshing.h"
 #include "mesh/repair.h"
 #include "mesh/triangle_tree.h"
 #include "mesh/wall_thickness.h"
@@ -33,6 +34,12 @@ PolygonSoup readPlyFile(const std::string&) {
 RepairedSurface repairSurface(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
                               const ProgressCallback&) {
   throw std::runtime_error("repair needs CGAL, which this build of Palpate was made without");
+}
+
+RemeshedSurface remeshIsotropic(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
+                                const std::vector<unsigned char>&, const Eigen::VectorXi&, double,
+                                int, const ProgressCallback&) {
+  throw std::runtime_error("remeshing needs CGAL, which this build of Palpate was made without");
 }
 
 struct GeodesicDistances::Shell {};
