@@ -14,9 +14,11 @@ namespace palpate::app {
 void addInfo(CLI::App& program);
 void addRepair(CLI::App& program);
 void addRefine(CLI::App& program);
+void addRemesh(CLI::App& program);
 void addPrecompute(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
+void addArtifacts(CLI::App& program);
 void addTouch(CLI::App& program);
 void addGrasp(CLI::App& program);
 void addDevices(CLI::App& program);

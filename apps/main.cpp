@@ -76,8 +76,8 @@ int main(int argc, char** argv) {
     for (const CLI::App* sub : app->get_subcommands()) name += " " + sub->get_name();
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
-  for (const auto add : {addInfo, addRepair, addRefine, addPrecompute, addPress, addStiffness,
-                         addDevices, addTouch, addGrasp})
+  for (const auto add : {addInfo, addRepair, addRefine, addRemesh, addPrecompute, addPress,
+                         addStiffness, addArtifacts, addDevices, addTouch, addGrasp})
     add(program);
   catchInterrupts();
   try {

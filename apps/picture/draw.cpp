@@ -82,7 +82,34 @@ vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* ar
   return table;
 }
 
-void addSurface(vtkRenderer* renderer, const View& view) {
+constexpr int kSharedBarPixels = 150;  ///< what a bar that all views share takes of the width
+
+/// @param left, width  of the viewport.
+void addBar(vtkRenderer* renderer, vtkScalarsToColors* colours, const std::string& title,
+            double left, double width) {
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(colours);
+  bar->SetTitle(title.c_str());
+  bar->SetNumberOfLabels(5);
+  bar->SetLabelFormat("%.3g");
+  bar->SetVerticalTitleSeparation(12);
+  bar->SetTextPad(6);
+  bar->UnconstrainedFontSizeOn();
+  bar->SetPosition(left, 0.12);
+  bar->SetWidth(width);
+  bar->SetHeight(0.72);
+  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+    text->SetColor(const_cast<double*>(kInk));
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+    text->SetFontSize(16);
+  }
+  renderer->AddActor2D(bar);
+}
+
+/// @return the colours of the array that is shown.
+vtkSmartPointer<vtkScalarsToColors> addSurface(vtkRenderer* renderer, const View& view) {
   const vtkSmartPointer<vtkPolyData> shape = shapeOf(view);
   const std::string name = view.colourBy.empty() ? "BoundaryType" : view.colourBy;
   vtkDataArray* array = shape->GetPointData()->GetArray(name.c_str());
@@ -104,7 +131,7 @@ void addSurface(vtkRenderer* renderer, const View& view) {
   actor->GetProperty()->SetDiffuse(0.75);
   actor->GetProperty()->SetColor(const_cast<double*>(kFree));
   renderer->AddActor(actor);
-  if (!array) return;
+  if (!array) return nullptr;
   const auto colours = coloursOf(view, array);
   mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectColorArray(name.c_str());
@@ -112,44 +139,31 @@ void addSurface(vtkRenderer* renderer, const View& view) {
   mapper->SetLookupTable(colours);
   mapper->UseLookupTableScalarRangeOn();
   mapper->InterpolateScalarsBeforeMappingOn();
-  if (view.colourBy.empty()) return;
-
-  vtkNew<vtkScalarBarActor> bar;
-  bar->SetLookupTable(colours);
-  bar->SetTitle(view.barTitle.c_str());
-  bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.3g");
-  bar->SetVerticalTitleSeparation(12);
-  bar->SetTextPad(6);
-  bar->UnconstrainedFontSizeOn();
-  bar->SetPosition(0.83, 0.12);
-  bar->SetWidth(0.13);
-  bar->SetHeight(0.72);
-  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
-    text->SetColor(const_cast<double*>(kInk));
-    text->ShadowOff();
-    text->ItalicOff();
-    text->BoldOff();
-    text->SetFontSize(16);
-  }
-  renderer->AddActor2D(bar);
+  return colours;
 }
 
-void addTitle(vtkRenderer* renderer, const std::string& title) {
+/// @param middle  of the line, of the viewport's width.
+void addTitle(vtkRenderer* renderer, const std::string& title, double middle) {
   vtkNew<vtkTextActor> text;
   text->SetInput(title.c_str());
   text->GetTextProperty()->SetFontSize(20);
   text->GetTextProperty()->SetColor(const_cast<double*>(kInk));
   text->GetTextProperty()->SetJustificationToCentered();
   text->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  text->SetPosition(0.42, 0.93);
+  text->SetPosition(middle, 0.93);
   renderer->AddActor2D(text);
+}
+
+/// Where the middle of what a view shows is, of its width.
+double middleOf(const Picture& picture) {
+  return picture.sharesBar ? 0.5 : 0.42;
 }
 
 /// One camera for all views, so that they can be compared: it holds what they show in the left of a
 /// viewport, beside the colour bar.
 vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
-  constexpr double left = 0.42, width = 0.74, height = 0.78;  // of the viewport: middle and extent
+  // Of the viewport: middle and extent.
+  const double left = middleOf(picture), width = picture.sharesBar ? 0.9 : 0.74, height = 0.78;
   const Eigen::Vector3d towards = Eigen::Vector3d(picture.towardsViewer.data()).stableNormalized();
   const bool fromAbove = std::abs(towards.z()) > 0.95;
   const Eigen::Vector3d upwards = fromAbove ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
@@ -185,16 +199,27 @@ void draw(const Picture& picture, const std::string& path) {
   window->SetMultiSamples(0);
   window->SetSize(picture.width, picture.height);
   const double count = static_cast<double>(picture.views.size());
-  const auto camera = cameraFor(picture, picture.width / count / picture.height);
-  for (std::size_t i = 0; i < picture.views.size(); ++i) {
+  const double right = picture.sharesBar ? 1 - double(kSharedBarPixels) / picture.width : 1;
+  const auto camera = cameraFor(picture, right * picture.width / count / picture.height);
+  const auto addRenderer = [&](double from, double to) {
     vtkNew<vtkRenderer> renderer;
-    renderer->SetViewport(i / count, 0, (i + 1) / count, 1);
+    renderer->SetViewport(from, 0, to, 1);
     renderer->SetBackground(const_cast<double*>(kPaper));
     renderer->SetUseFXAA(true);
-    addSurface(renderer, picture.views[i]);
-    addTitle(renderer, picture.views[i].title);
-    renderer->SetActiveCamera(camera);
     window->AddRenderer(renderer);
+    return renderer.GetPointer();
+  };
+  for (std::size_t i = 0; i < picture.views.size(); ++i) {
+    const View& view = picture.views[i];
+    vtkRenderer* renderer = addRenderer(right * i / count, right * (i + 1) / count);
+    const auto colours = addSurface(renderer, view);
+    addTitle(renderer, view.title, middleOf(picture));
+    renderer->SetActiveCamera(camera);
+    if (view.colourBy.empty()) continue;
+    if (!picture.sharesBar)
+      addBar(renderer, colours, view.barTitle, 0.83, 0.13);
+    else if (i == 0)
+      addBar(addRenderer(right, 1), colours, view.barTitle, 0.1, 0.8);
   }
   window->Render();
   writePng(window, path);

@@ -29,6 +29,7 @@ struct Picture {
   std::vector<View> views;
   std::array<double, 3> towardsViewer;  ///< direction from the object to the eye
   int width = 1200, height = 600;
+  bool sharesBar = false;  ///< one colour bar, of the first view, beside them all
 };
 
 /// Draws a picture to a PNG file, whole or not at all. Loads the drawing library on first use.

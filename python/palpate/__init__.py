@@ -19,7 +19,16 @@ from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
 from .errors import Aborted, Error, ModelWarning
 from .files import example, read, write
-from .functions import precompute, press, refine, repair, solve, stiffness
+from .functions import (
+    precompute,
+    press,
+    refine,
+    remesh,
+    repair,
+    solve,
+    stiffness,
+    stiffness_artifacts,
+)
 from .version import __version__
 
 __all__ = [
@@ -35,8 +44,10 @@ __all__ = [
     "press",
     "read",
     "refine",
+    "remesh",
     "repair",
     "solve",
     "stiffness",
+    "stiffness_artifacts",
     "write",
 ]

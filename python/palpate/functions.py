@@ -29,13 +29,16 @@ from .PalpateElastostatics import (
     vtkBoundaryElementGreensFunctions,
     vtkCapacitanceSolve,
     vtkElasticMeshRepair,
+    vtkIsotropicRemeshing,
     vtkLoopRefinement,
     vtkPointContact,
     vtkReferenceBoundaryConditions,
+    vtkStiffnessArtifacts,
     vtkSurfaceStiffness,
 )
 
-__all__ = ["precompute", "press", "refine", "repair", "solve", "stiffness"]
+__all__ = ["precompute", "press", "refine", "remesh", "repair", "solve", "stiffness",
+           "stiffness_artifacts"]
 
 
 def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
@@ -358,6 +361,117 @@ def stiffness(model, radius=None, mask="linear", *, radius_in_edges=None, rigid_
     algorithm.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
     algorithm.SetRotational(flag(rotational, "rotational"))
     set_mask(algorithm, radius, radius_in_edges, mask, distance, measure)
+    return run(algorithm, progress_callback(progress))
+
+
+def stiffness_artifacts(model, radius=None, mask="linear", *, radius_in_edges=None,
+                        smoothing_length=None, reference=None, rigid_stiffness=0.0, progress=None,
+                        distance="euclidean", measure="vertex"):
+    """Where the mesh, and not the material, makes a surface feel soft.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        From `precompute`, n vertices.
+    radius, mask, radius_in_edges, rigid_stiffness, progress, distance, measure
+        As in `stiffness`. To compare meshes of one body give all the same `radius`.
+    smoothing_length : float, optional
+        Waves of 2 pi times this length, metres, pass into the smooth part of the field by half, twice as
+        long ones by 94 %; a tenth of the surface's diagonal by default. To compare meshes give all the
+        same.
+    reference : vtkPolyData, optional
+        Another mesh of the body, in the same frame and unit, with its `Stiffness`: from here or from
+        `stiffness`, e.g. of the next finer level.
+
+    Returns
+    -------
+    vtkPolyData
+        The model with all that `stiffness` gives, and `SingleVertexStiffnessNorm` (n, N/m, without a
+        mask), `StiffnessCondition` (n), `PrincipalStiffness1`, `2`, `3` (n by 3, vectors along the
+        principal axes as long as the stiffness in N/m, stiffest first, zero where there is none),
+        `HapticStiffness` (n by 9, N/m, K^H of James & Pai 2001, section 6.4), `SmoothStiffnessNorm` (n,
+        N/m), `StiffnessArtifact` and `SingleVertexArtifact` (n, the norm over its smooth part, minus 1),
+        `StiffnessJump` (n, the largest of the vertex's edges, relative to their mean) and, with a
+        `reference`, `StiffnessChange` (n, over the reference at the same point, minus 1; NaN where there
+        is no such point). Field arrays (1 by 2, of single vertices and under the mask):
+        `ArtifactVariation`, `ArtifactAreaCorrelation` (Spearman's, with the vertex areas) and
+        `ArtifactLargestJump`; with a `reference` also `StiffnessChangeMeasures` (1 by 4: median, variation,
+        95th percentile of the size, vertices compared).
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.refine(palpate.read(palpate.example("kidney")), 2)
+    >>> found = palpate.stiffness_artifacts(palpate.precompute(kidney, 8e3, 0.45), radius_in_edges=2)
+    >>> single, masked = palpate.array(found, "ArtifactAreaCorrelation")[0]
+    >>> bool(single > 0.8), bool(abs(masked) < 0.2)
+    (True, True)
+    """
+    algorithm = vtkStiffnessArtifacts()
+    algorithm.SetInputData(surface_of(model))
+    algorithm.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
+    if smoothing_length is not None:
+        length = number(smoothing_length, "smoothing_length")
+        if length == 0:
+            raise Error("smoothing_length must be above 0")
+        algorithm.SetSmoothingLength(length)
+    if reference is not None:
+        algorithm.SetReferenceData(surface_of(reference))
+    set_mask(algorithm, radius, radius_in_edges, mask, distance, measure)
+    return run(algorithm, progress_callback(progress))
+
+
+def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progress=None):
+    """Another mesh of a closed surface, with edges of about one length.
+
+    Parameters
+    ----------
+    surface : vtkPolyData
+        A closed triangle surface. The rims of its support and of its smooth patches keep their place.
+    edge_length : float, optional
+        Wanted, in the surface's unit; the surface's mean edge by default.
+    iterations : int
+        How often the mesh is worked over, 1 to 100.
+    smooth_angle : float
+        Edges sharper than this, degrees, are kept where there is no cell array `SmoothPatch`.
+    progress : callable or bool, optional
+        As in `precompute`.
+
+    Returns
+    -------
+    vtkPolyData
+        The surface with its `BoundaryType`, a given `SmoothPatch` and the material.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.refine(palpate.read(palpate.example("kidney")), 3)
+    >>> even = palpate.remesh(kidney, 0.008)
+    >>> 250 < even.GetNumberOfPoints() < 500
+    True
+    """
+    algorithm = vtkIsotropicRemeshing()
+    algorithm.SetInputData(surface_of(surface))
+    if edge_length is not None:
+        length = number(edge_length, "edge_length")
+        if length == 0:
+            raise Error("edge_length must be above 0")
+        algorithm.SetEdgeLength(length)
+    times = whole_number(iterations, "iterations", 100)
+    if times == 0:
+        raise Error("iterations must be 1 to 100, not 0")
+    algorithm.SetNumberOfIterations(times)
+    algorithm.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     return run(algorithm, progress_callback(progress))
 
 

@@ -24,6 +24,18 @@ constexpr const char* RotationalStiffness = "RotationalStiffness"; // 9, row by 
 constexpr const char* MaskSupportShare = "MaskSupportShare"; // what would have been on fixed vertices
 constexpr const char* MaskBeyondShare = "MaskBeyondShare";   // on other components and far sides
 constexpr const char* HapticRatio = "HapticRatio";               // |K^H| / |K^E|
+// Point data of vtkStiffnessArtifacts; NaN where there is no elastic stiffness, vectors zero.
+constexpr const char* HapticStiffness = "HapticStiffness"; // 9, row by row, K^H, N/m
+constexpr const char* SingleVertexStiffnessNorm = "SingleVertexStiffnessNorm"; // without mask, N/m
+constexpr const char* StiffnessCondition = "StiffnessCondition"; // stiffest over softest direction
+constexpr const char* PrincipalStiffness1 = "PrincipalStiffness1"; // 3, the stiffest axis, as long as N/m
+constexpr const char* PrincipalStiffness2 = "PrincipalStiffness2";
+constexpr const char* PrincipalStiffness3 = "PrincipalStiffness3";
+constexpr const char* SmoothStiffnessNorm = "SmoothStiffnessNorm"; // smooth part of StiffnessNorm, N/m
+constexpr const char* StiffnessArtifact = "StiffnessArtifact"; // StiffnessNorm over its smooth part, - 1
+constexpr const char* SingleVertexArtifact = "SingleVertexArtifact"; // the same of single vertices
+constexpr const char* StiffnessJump = "StiffnessJump";     // largest of the vertex's edges, relative
+constexpr const char* StiffnessChange = "StiffnessChange"; // over that of the reference, - 1
 
 // Cell data.
 constexpr const char* SmoothPatch = "SmoothPatch"; // int, traction may jump between patches
@@ -72,6 +84,14 @@ constexpr const char* ContactPoint = "ContactPoint";               // 3, x^C of 
 constexpr const char* ElasticContactPoint = "ElasticContactPoint"; // 3, x^E, m
 constexpr const char* HapticContactPoint = "HapticContactPoint";   // 3, x^H, m
 
+// Field data of vtkStiffnessArtifacts: two values each, of single vertices and under the mask.
+constexpr const char* ArtifactVariation = "ArtifactVariation"; // of |K| about its smooth part
+constexpr const char* ArtifactAreaCorrelation = "ArtifactAreaCorrelation"; // Spearman's, with areas
+constexpr const char* ArtifactLargestJump = "ArtifactLargestJump"; // across an edge, relative
+constexpr const char* SmoothingLength = "SmoothingLength";         // m
+constexpr const char* StiffnessChangeMeasures =
+  "StiffnessChangeMeasures"; // median, variation, 95th percentile of its size, vertices compared
+
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
@@ -89,7 +109,10 @@ constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce,
 /// Point data of all contacts with one model, and field data of one mask.
 constexpr const char* StiffnessResults[] = { PressureMask, TorqueMask, Stiffness, StiffnessNorm,
   StiffnessAsymmetry, StiffnessLimited, RotationalStiffness, MaskSupportShare, MaskBeyondShare,
-  HapticRatio };
+  HapticRatio, HapticStiffness, SingleVertexStiffnessNorm, StiffnessCondition, PrincipalStiffness1,
+  PrincipalStiffness2, PrincipalStiffness3, SmoothStiffnessNorm, StiffnessArtifact, SingleVertexArtifact,
+  StiffnessJump, StiffnessChange, ArtifactVariation, ArtifactAreaCorrelation, ArtifactLargestJump,
+  SmoothingLength, StiffnessChangeMeasures };
 } // namespace palpate::arrays
 
 #endif

@@ -225,6 +225,15 @@ void setFieldNumber(vtkDataObject* data, const char* name, double value)
   fieldsOf(data)->AddArray(array);
 }
 
+void setFieldNumbers(vtkDataObject* data, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(values.size()));
+  array->InsertNextTuple(values.data());
+  fieldsOf(data)->AddArray(array);
+}
+
 void setFieldVector(vtkDataObject* data, const char* name, const Eigen::Vector3d& value)
 {
   setFieldVectors(data, name, value);
@@ -281,6 +290,26 @@ void setPointNumbers(vtkPolyData* surface, const char* name, const Eigen::Vector
   array->SetNumberOfTuples(values.size());
   Eigen::Map<Eigen::VectorXd>(array->GetPointer(0), values.size()) = values;
   surface->GetPointData()->AddArray(array);
+}
+
+std::vector<Eigen::Matrix3d> pointMatricesOf(
+  vtkPolyData* surface, const char* name, const std::string& cure)
+{
+  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != 9 ||
+    array->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw std::invalid_argument(
+      std::string("there is no point array '") + name + "' of nine components: " + cure);
+  }
+  std::vector<Eigen::Matrix3d> matrices(surface->GetNumberOfPoints());
+  for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
+  {
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows;
+    array->GetTuple(v, rows.data());
+    matrices[v] = rows;
+  }
+  return matrices;
 }
 
 std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional)

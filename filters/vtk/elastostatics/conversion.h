@@ -39,6 +39,8 @@ bool hasField(vtkDataObject* data, const char* name);
 /// @throws if it is missing; `cure` ends the sentence.
 double fieldNumber(vtkDataObject* data, const char* name, const std::string& cure);
 void setFieldNumber(vtkDataObject* data, const char* name, double value);
+/// One tuple of any numbers.
+void setFieldNumbers(vtkDataObject* data, const char* name, const std::vector<double>& values);
 void setFieldVector(vtkDataObject* data, const char* name, const Eigen::Vector3d& value);
 /// A tuple a column.
 /// @throws for values that are not finite, as do setFieldVector and setPointVectors.
@@ -52,6 +54,11 @@ void setPointNumbers(vtkPolyData* surface, const char* name, const Eigen::Vector
 /// 3 by 3 each, row by row.
 void setPointMatrices(
   vtkPolyData* surface, const char* name, const std::vector<Eigen::Matrix3d>& values);
+
+/// The same, read. NaN stands for no matrix.
+/// @throws if there is no such array, with `cure` at the sentence's end.
+std::vector<Eigen::Matrix3d> pointMatricesOf(
+  vtkPolyData* surface, const char* name, const std::string& cure);
 
 /// The 0/1 values of the BoundaryType array; all free if `optional` and there is none.
 std::vector<unsigned char> boundaryTypesOf(vtkPolyData* surface, bool optional);
