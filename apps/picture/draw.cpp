@@ -39,6 +39,7 @@ namespace {
 
 constexpr double kInk[3] = {0.13, 0.13, 0.16}, kPaper[3] = {1, 1, 1};
 constexpr double kFree[3] = {0.87, 0.73, 0.62}, kFixed[3] = {0.25, 0.42, 0.72};
+constexpr double kNothing[3] = {0.78, 0.78, 0.8};  ///< where an array has no value
 
 vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
   vtkNew<vtkPolyData> shape;
@@ -77,6 +78,7 @@ vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* ar
     table->SetTableValue(i, colour[0], colour[1], colour[2]);
   }
   table->SetTableRange(range);
+  table->SetNanColor(kNothing[0], kNothing[1], kNothing[2], 1);
   if (view.logarithmic) table->SetScaleToLog10();
   if (array->GetNumberOfComponents() > 1) table->SetVectorModeToMagnitude();
   return table;

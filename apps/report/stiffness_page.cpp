@@ -9,8 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
+#include <filesystem>
 
 #include "mesh/surface_mesh.h"
 #include "picture/picture.h"
@@ -76,7 +75,7 @@ std::string fieldPictures(const StiffnessStudy& study) {
   }
   Scale area{"area\n(m^2)", rangeOf(areas, 0, 1), true};
   Scale norm{"|K|\n(N/m)", rangeOf(norms, 0.02, 0.98)};
-  norm.logarithmic = norm.range[1] > 5 * norm.range[0];
+  norm.logarithmic = norm.range[1] > 3 * norm.range[0];
   const Range spread = rangeOf(artifacts, 0.02, 0.98);
   const double most = std::max(-spread[0], spread[1]);
   const Scale artifact{"artefact", {-most, most}};
@@ -156,58 +155,67 @@ Pull pullOf(const StiffnessStudy& study) {
   return {0.25 * mesh.diagonal() * softest * normal, {towards.x(), towards.y(), towards.z()}};
 }
 
-/// Views of pulls side by side, under one scale, and what they show.
-std::string pullPicture(const std::vector<vtkSmartPointer<vtkPolyData>>& surfaces,
-                        const std::vector<std::string>& titles, const Pull& pull,
-                        const std::string& description) {
-  double most = 0;
-  for (const auto& surface : surfaces)
-    most = std::max(most, surface->GetPointData()->GetArray("Displacement")->GetMaxNorm());
-  Picture picture;
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-    picture.views.push_back(
-        {surfaces[i], titles[i], "Displacement", "moved by\n(m)", true, Range{0, most}});
-  picture.towardsViewer = pull.direction;
-  picture.width = 150 + 300 * static_cast<int>(surfaces.size());
-  picture.height = 360;
-  picture.sharesBar = true;
-  return "<figure>" + drawn(picture, description) + "<figcaption>" + html::escaped(description) +
-         "</figcaption></figure>\n";
-}
-
-std::string pullsOfMeshes(const StiffnessStudy& study, const StudyOptions& options,
-                          const Pull& pull) {
-  std::string result;
-  for (bool isMasked : {false, true}) {
-    std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-    std::vector<std::string> titles;
-    for (const MeshStudy& mesh : study.meshes) {
-      surfaces.push_back(
-          pulled(mesh.bare, study, options, isMasked ? study.radius : 0, pull.force));
-      titles.push_back(std::to_string(mesh.bare->GetNumberOfPoints()) + " vertices");
-    }
-    result += pullPicture(surfaces, titles, pull,
-                          "A force of " + number(pull.force.norm(), 3) + " N on " +
-                              (isMasked ? "a mask of " + number(study.radius, 3) + " m"
-                                        : std::string("a single vertex")) +
-                              ", the same for every mesh; deformations to scale.");
-  }
-  return result;
-}
-
-std::string pullsOfMasks(const StiffnessStudy& study, const StudyOptions& options,
-                         const Pull& pull) {
+/// Views of pulls side by side.
+struct Pulls {
   std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
   std::vector<std::string> titles;
-  const MeshStudy& finest = study.meshes.back();
-  for (double share : {0.5, 1., 2.}) {
-    surfaces.push_back(pulled(finest.bare, study, options, share * study.radius, 2 * pull.force));
-    titles.push_back("r = " + number(share * study.radius, 3) + " m");
+  std::string description;
+};
+
+double largestDisplacement(const Pulls& pulls) {
+  double most = 0;
+  for (const auto& surface : pulls.surfaces)
+    most = std::max(most, surface->GetPointData()->GetArray("Displacement")->GetMaxNorm());
+  return most;
+}
+
+/// @param most  of the colours, m.
+std::string pullPicture(const Pulls& pulls, const Pull& pull, double most) {
+  Picture picture;
+  for (std::size_t i = 0; i < pulls.surfaces.size(); ++i)
+    picture.views.push_back({pulls.surfaces[i], pulls.titles[i], "Displacement", "moved by\n(m)",
+                             true, Range{0, most}});
+  picture.towardsViewer = pull.direction;
+  picture.width = 150 + 300 * static_cast<int>(pulls.surfaces.size());
+  picture.height = 360;
+  picture.sharesBar = true;
+  return "<figure>" + drawn(picture, pulls.description) + "<figcaption>" +
+         html::escaped(pulls.description) + "</figcaption></figure>\n";
+}
+
+/// Fig. 4: one force on every mesh, at a vertex and under the mask.
+std::string pullsOfMeshes(const StiffnessStudy& study, const StudyOptions& options,
+                          const Pull& pull) {
+  Pulls both[2];
+  for (bool isMasked : {false, true}) {
+    Pulls& pulls = both[isMasked];
+    pulls.description = "A force of " + number(pull.force.norm(), 3) + " N on " +
+                        (isMasked ? "a mask of " + number(study.radius, 3) + " m"
+                                  : std::string("a single vertex")) +
+                        ", the same for every mesh; deformations and colours to one scale.";
+    for (const MeshStudy& mesh : study.meshes) {
+      const double radius = isMasked ? study.radius : 0;
+      pulls.surfaces.push_back(pulled(mesh.bare, study, options, radius, pull.force));
+      pulls.titles.push_back(std::to_string(mesh.bare->GetNumberOfPoints()) + " vertices");
+    }
   }
-  return pullPicture(surfaces, titles, pull,
-                     "The same force of " + number(2 * pull.force.norm(), 3) +
-                         " N under masks of three radii, on the finest mesh (" + finest.name +
-                         ").");
+  const double most = std::max(largestDisplacement(both[0]), largestDisplacement(both[1]));
+  return pullPicture(both[0], pull, most) + pullPicture(both[1], pull, most);
+}
+
+/// Fig. 6: one force under masks of three radii.
+std::string pullsOfMasks(const StiffnessStudy& study, const StudyOptions& options,
+                         const Pull& pull) {
+  const MeshStudy& finest = study.meshes.back();
+  Pulls pulls;
+  pulls.description = "The same force of " + number(2 * pull.force.norm(), 3) +
+                      " N under masks of three radii, on the finest mesh (" + finest.name + ").";
+  for (double share : {0.5, 1., 2.}) {
+    pulls.surfaces.push_back(
+        pulled(finest.bare, study, options, share * study.radius, 2 * pull.force));
+    pulls.titles.push_back("r = " + number(share * study.radius, 3) + " m");
+  }
+  return pullPicture(pulls, pull, largestDisplacement(pulls));
 }
 
 std::string measureTable(const StiffnessStudy& study) {
@@ -256,7 +264,7 @@ std::string lawText(const StiffnessStudy& study) {
     single.x.push_back(point.size);
     single.y.push_back(point.compliance);
     masked.x.push_back(point.size);
-    masked.y.push_back(3 / point.masked);  // |K^-1| of an isotropic K of this norm
+    masked.y.push_back(point.maskedCompliance);
     low = std::min(low, point.size);
     high = std::max(high, point.size);
   }
@@ -266,7 +274,6 @@ std::string lawText(const StiffnessStudy& study) {
     fit.x.push_back(h);
     fit.y.push_back(y);
   }
-  masked.name = "masked, 3/‖K‖";
   std::vector<html::Series> all{single, masked};
   if (fit.x.size() > 1) all.push_back(fit);
   return "<p>The compliance of a single vertex grows like h<sup>−" + number(law.exponent, 3) +
@@ -326,7 +333,10 @@ constexpr const char* kMethod =
 }  // namespace
 
 std::string studyPage(const StiffnessStudy& study, const StudyOptions& options) {
-  const std::string title = "Stiffness artefacts: " + study.meshes.back().name;
+  std::string title = "Stiffness artefacts:";
+  for (const std::string& path : options.inputs)
+    title +=
+        (path == options.inputs.front() ? " " : ", ") + std::filesystem::path(path).stem().string();
   std::string body = "<h1>" + html::escaped(title) + "</h1>\n<p>" +
                      std::to_string(study.meshes.size()) +
                      (study.meshes.size() > 1 ? " meshes of one object, " : " mesh, ") +

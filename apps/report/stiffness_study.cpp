@@ -180,7 +180,9 @@ PointSample sampleOf(const Named& mesh, vtkPolyData* model, const StiffnessStudy
   const Eigen::Matrix3d single = stiffnessAt(model, study, options, false, vertex);
   sample.single = single.norm();
   sample.compliance = single.inverse().norm();
-  sample.masked = stiffnessAt(model, study, options, true, vertex).norm();
+  const Eigen::Matrix3d masked = stiffnessAt(model, study, options, true, vertex);
+  sample.masked = masked.norm();
+  sample.maskedCompliance = masked.inverse().norm();
   return sample;
 }
 

@@ -36,6 +36,7 @@ struct PointSample {
          apart = 0;               ///< mean edge; root of the vertex's area; from the point; m
   double single = 0, masked = 0;  ///< |K|_F, N/m
   double compliance = 0;          ///< |K^-1|_F of the single vertex, m/N
+  double maskedCompliance = 0;    ///< under the mask
 };
 
 /// A mesh with its fields.

@@ -17,7 +17,8 @@ namespace palpate {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSameSide = 0.5;  ///< cosine of the largest angle between normals of one point
+constexpr double kLeastCommon = 0.5;  ///< of the area of surfaces that are compared
+constexpr double kSameSide = 0.5;     ///< cosine of the largest angle between normals of one point
 
 std::vector<int> ascending(const Eigen::VectorXd& values) {
   std::vector<int> order(values.size());
@@ -160,8 +161,10 @@ StiffnessChange compareStiffness(const SurfaceMesh& mesh, const Eigen::VectorXd&
   StiffnessChange result;
   result.change = Eigen::VectorXd::Constant(mesh.vertexCount(), kNothing);
   std::vector<int> nodes;
+  double whole = 0, common = 0;
   for (int v = 0; v < mesh.vertexCount(); ++v) {
     if (std::isnan(norms[v])) continue;
+    whole += mesh.vertexAreas()[v];
     const SurfacePoint at = other.nearest(mesh.points().col(v));
     const double apart = (placeOf(other.mesh(), at) - mesh.points().col(v)).norm();
     const Eigen::Vector3d normal = other.mesh().triangleNormals().col(at.triangle);
@@ -172,12 +175,14 @@ StiffnessChange compareStiffness(const SurfaceMesh& mesh, const Eigen::VectorXd&
         there += at.barycentric[k] * stiffness[other.mesh().triangles()(k, at.triangle)];
     if (there.hasNaN()) continue;
     result.change[v] = norms[v] / there.norm() - 1;
+    common += mesh.vertexAreas()[v];
     nodes.push_back(v);
   }
-  if (nodes.empty())
+  if (nodes.empty() || common < kLeastCommon * whole)
     throw std::invalid_argument(
-        "no free point of one surface lies on a free part of the other: are they the same body, in "
-        "one frame and unit?");
+        "only " + std::to_string(whole > 0 ? std::lround(100 * common / whole) : 0) +
+        " % of one surface's free part lies on that of the other: are they the same body, in one "
+        "frame and unit?");
   const Eigen::VectorXd change = result.change(nodes), areas = mesh.vertexAreas()(nodes);
   result.matched = static_cast<int>(nodes.size());
   result.median = quantileOf(change, areas, 0.5);

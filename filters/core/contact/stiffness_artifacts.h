@@ -78,7 +78,8 @@ struct StiffnessChange {
 /// @param norms      #V, N/m, NaN where there is none.
 /// @param other      over the other surface, in the same frame and unit.
 /// @param stiffness  of its vertices, NaN where there is none.
-/// @throws std::invalid_argument for other sizes, or if no point has a counterpart.
+/// @throws std::invalid_argument for other sizes, or if less than half of the free area has a
+///         counterpart.
 StiffnessChange compareStiffness(const SurfaceMesh& mesh, const Eigen::VectorXd& norms,
                                  const SurfaceLocator& other,
                                  const std::vector<Eigen::Matrix3d>& stiffness);
