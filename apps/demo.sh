@@ -30,6 +30,7 @@ step press press demo/model.vtp demo/pressed.vtp --at 0 0 0.03 --displacement 0 
 step single stiffness demo/model.vtp demo/stiffness_single.vtp --image demo/stiffness_single.png
 step masked stiffness demo/model.vtp demo/stiffness_masked.vtp --radius-edges 2 \
   --image demo/stiffness_masked.png
+step report artifacts data/kidney.vtp --levels 2 3 --radius 0.016 --report demo/stiffness.html
 
 echo
 row "vertices (free)" "$(value precompute vertices) ($(value precompute "Green's functions"))"
@@ -41,8 +42,9 @@ row "seconds: stiffness single, masked, likewise" "${seconds[single]}, ${seconds
 row "reciprocity defect (discretisation)" "$(value precompute 'reciprocity defect')"
 row "integration defect, solver residual" "$(value precompute 'integration defect'), $(value precompute 'solver residual')"
 row "contact force under 8 mm, N" "$(value press 'contact force, N')"
+row "seconds: stiffness of two meshes, with report" "${seconds[report]}"
 row "variation of |K|, single vertices" "$(value single 'coefficient of variation')"
 row "variation of |K|, masks of 2 edge lengths" "$(value masked 'coefficient of variation')"
 echo
-echo "In demo/: model.vtp, pressed.vtp, stiffness_single.vtp, stiffness_masked.vtp, and pictures:"
+echo "In demo/: model.vtp, pressed.vtp, stiffness_single.vtp, stiffness_masked.vtp, stiffness.html, and pictures:"
 ls demo/*.png
