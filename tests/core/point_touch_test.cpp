@@ -57,20 +57,27 @@ class PointTouchOfASphere : public testing::Test {
 TouchedBody* PointTouchOfASphere::body_ = nullptr;
 std::shared_ptr<const SurfaceStiffness> PointTouchOfASphere::stiffness_;
 
-TEST_F(PointTouchOfASphere, PushesBackOnEachToolAloneAsItsContactDoes) {
-  PointTouch touch(stiffness_, 2, 0.3);
-  const Eigen::Vector3d above(0, 0, 1.1), below(0.02, 0.01, 0.9), side(1.1, 0, 0), in(0.9, 0, 0.1);
-  const std::vector<Wrench> both = move(touch, {above, side}, {below, in});
-  for (int tool = 0; tool < 2; ++tool) {
-    PointTouch alone(stiffness_, 1, 0.3);
-    const std::vector<Wrench> one =
-        move(alone, {tool == 0 ? above : side}, {tool == 0 ? below : in});
-    EXPECT_EQ(one[0].force, both[tool].force);
-    EXPECT_EQ(both[tool].force, -touch.contact(tool).force());
-    EXPECT_EQ(both[tool].torque, Eigen::Vector3d::Zero());
+TEST_F(PointTouchOfASphere, PushesBackOnAToolThatTouchesAloneBitForBitAsItsContactDoes) {
+  const Eigen::Vector3d above(0, 0, 1.1), below(0.02, 0.01, 0.9), away(0.3, 0, 1.2);
+  PointTouch one(stiffness_, 1, 0.3), both(stiffness_, 2, 0.3);
+  SlidingContact contact(stiffness_, std::make_shared<TouchedSurface>(body_->mesh));
+  contact.setFriction(0.3);
+  for (int t = 0; t <= 300; ++t) {
+    const Eigen::Vector3d place =
+        above + std::sin(0.02 * t) * (below - above) + Eigen::Vector3d(0.002 * t, 0, 0);
+    const ToolPose poses[2] = {at(place, t % 90 > 70), at(away)};
+    Wrench alone, wrenches[2];
+    contact.setAdhesion(t % 90 > 70);
+    contact.advance(place);
+    one.step(poses, &alone);
+    const ContactCertificate certificate = both.step(poses, wrenches);
+    EXPECT_EQ(alone.force, -contact.force());
+    EXPECT_EQ(wrenches[0].force, alone.force) << "tick " << t;
+    EXPECT_EQ(wrenches[1].force, Eigen::Vector3d::Zero());
+    EXPECT_EQ(wrenches[0].torque, Eigen::Vector3d::Zero());
+    EXPECT_EQ(certificate.residual, 0);
+    EXPECT_EQ(certificate.iterations, contact.slideCount());
   }
-  EXPECT_GT(both[0].force.z(), 0);
-  EXPECT_GT(both[1].force.x(), 0);
 }
 
 TEST_F(PointTouchOfASphere, ItsSnapshotDeformsTheBodyAsTheContactsDo) {

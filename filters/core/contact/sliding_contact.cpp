@@ -48,11 +48,11 @@ SlidingContact::SlidingContact(std::shared_ptr<const SurfaceStiffness> stiffness
 void SlidingContact::setStiffness(std::shared_ptr<const SurfaceStiffness> stiffness) noexcept {
   former_ = std::move(stiffness_);
   stiffness_ = std::move(stiffness);
-  blend_ = 0;
+  blendLeft_ = kBlendTicks;
 }
 
 void SlidingContact::reset() noexcept {
-  state_ = State::Unknown;
+  phase_ = Phase::Unknown;
   hasPlace_ = false;
   force_.setZero();
   norm_ = excess_ = 0;
@@ -63,8 +63,8 @@ void SlidingContact::reset() noexcept {
 Eigen::Matrix3d SlidingContact::stiffnessAt(int triangle,
                                             const Eigen::Vector3d& barycentric) const noexcept {
   const Eigen::Matrix3d stiffness = stiffness_->hapticAt(triangle, barycentric);
-  if (blend_ >= kBlendTicks) return stiffness;
-  const double share = double(blend_) / kBlendTicks;
+  if (!isChanging()) return stiffness;
+  const double share = changed();
   return share * stiffness + (1 - share) * former_->hapticAt(triangle, barycentric);
 }
 
@@ -76,19 +76,22 @@ void SlidingContact::arrive(const SurfacePoint& point, const Eigen::Matrix3d& st
   normal_ = normalAt(mesh, point);
 }
 
-const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& place) noexcept {
+const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& probe,
+                                               const Eigen::Vector3d& shift) noexcept {
+  const Eigen::Vector3d place = probe - shift;
   if (!place.allFinite()) {
     reset();
     return force_;
   }
-  const double step = (hasPlace_ ? (place - place_).norm() : 0) + relaxation_;
+  const double way = isTouching() ? (place - place_).norm() : (probe - probe_).norm();
+  const double step = (hasPlace_ ? way : 0) + relaxation_;
   slides_ = 0;
   excess_ = 0;
   isHeldBack_ = isUnserved_ = false;
 
   double ofChange = 0;
-  if (blend_ < kBlendTicks) {
-    ++blend_;
+  if (isChanging()) {
+    --blendLeft_;
     const Eigen::Matrix3d before = here_;
     here_ = stiffnessAt(point_.triangle, point_.barycentric);
     if (isTouching()) ofChange = ((here_ - before) * (place_ - staticPoint_)).norm();
@@ -123,15 +126,16 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& place) noe
   else
     force_ += (limit + ofChange) / jump * (force - force_);
   place_ = place;
+  probe_ = probe;
   hasPlace_ = true;
   return force_;
 }
 
 /// Whether the way from a place outside to this one touches the surface.
 bool SlidingContact::begin(const Eigen::Vector3d& place) noexcept {
-  if (state_ == State::Unknown) {
+  if (phase_ == Phase::Unknown) {
     if (surface_->locator.isInside(place)) return false;
-    state_ = State::Outside;
+    phase_ = Phase::Outside;
     outside_ = place;
     return false;
   }
@@ -148,7 +152,7 @@ bool SlidingContact::begin(const Eigen::Vector3d& place) noexcept {
 void SlidingContact::touch(const SurfacePoint& point) noexcept {
   const Eigen::Matrix3d stiffness = stiffnessAt(point.triangle, point.barycentric);
   isUnserved_ = !stiffness.allFinite();
-  state_ = isUnserved_ ? State::Unknown : State::Touching;
+  phase_ = isUnserved_ ? Phase::Unknown : Phase::Touching;
   if (!isUnserved_) arrive(point, stiffness);
 }
 
@@ -187,7 +191,7 @@ CoulombSlip SlidingContact::slipAt(const Eigen::Vector3d& place) const noexcept 
 
 void SlidingContact::end() noexcept {
   const SurfaceMesh& mesh = surface_->walk.mesh();
-  state_ = State::Outside;
+  phase_ = Phase::Outside;
   outside_ = staticPoint_ + kLift * mesh.diagonal() * mesh.triangleNormals().col(point_.triangle);
 }
 

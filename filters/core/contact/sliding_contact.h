@@ -21,6 +21,27 @@ struct TouchedSurface {
   SurfaceWalk walk;
 };
 
+/// All of a SlidingContact that a tick changes.
+struct SlidingState {
+  enum class Phase { Unknown, Outside, Touching };
+
+  Phase phase_ = Phase::Unknown;
+  bool hasPlace_ = false;
+  Eigen::Vector3d probe_ = Eigen::Vector3d::Zero();    ///< x^H
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();    ///< x^H less the shift
+  Eigen::Vector3d outside_ = Eigen::Vector3d::Zero();  ///< a place out of the material
+  SurfacePoint point_{0, Eigen::Vector3d::UnitX()};
+  Eigen::Vector3d staticPoint_ = Eigen::Vector3d::Zero(), normal_ = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d here_ = Eigen::Matrix3d::Zero();  ///< K^H(x^C)
+  double norm_ = 0;                                 ///< of here_, when the tick began
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  int blendLeft_ = 0;  ///< ticks in which what is left of the former stiffness fades
+
+  int slides_ = 0;
+  double excess_ = 0;
+  bool isHeldBack_ = false, isUnserved_ = false;
+};
+
 /// A probe's tip on an elastic surface: it pushes, sticks, slides and pulls ([JP01] sections 6.3 to
 /// 7 and fig. 8). The contact is found where the probe's way x^H enters the undeformed body and is
 /// tracked from there on in surface coordinates, x^C, face to face; the force on the body is that
@@ -51,8 +72,13 @@ struct TouchedSurface {
 /// body that is stiffer here than there), and what the interpolated normals n differ from the
 /// triangles' by, which vanishes as these get smaller. A contact that sticks gives back nothing.
 ///
+/// Displacement by other forces. Where these displace the surface at x^C by d, f = K^H(x^C) (x^H -
+/// d
+/// - x^C): all of the above holds with x^H - d for x^H. A contact that begins does not count the d
+/// that it begins with as a step.
+///
 /// One thread advances it. Nothing here but construction allocates, locks or throws.
-class SlidingContact {
+class SlidingContact : private SlidingState {
  public:
   static constexpr double kContinuity = 1;
   static constexpr double kRelaxedEdges = 2e-3;  ///< relaxation() over the mean edge length
@@ -74,19 +100,27 @@ class SlidingContact {
   /// only. The one before is let go of when this returns; who must not free memory here keeps it
   /// elsewhere.
   void setStiffness(std::shared_ptr<const SurfaceStiffness> stiffness) noexcept;
-  bool isChanging() const noexcept { return blend_ < kBlendTicks; }
+  bool isChanging() const noexcept { return blendLeft_ > 0; }
+  /// Share of the stiffness set last in what is served.
+  double changed() const noexcept { return double(kBlendTicks - blendLeft_) / kBlendTicks; }
   const SurfaceStiffness& stiffness() const noexcept { return *stiffness_; }
 
   /// Moves the probe.
   /// @param place  x^H, m, in the mesh's frame. One that is not finite ends the contact.
+  /// @param shift  d, m, at `point()`, or where contact will begin.
   /// @return  the force on the body, N.
-  const Eigen::Vector3d& advance(const Eigen::Vector3d& place) noexcept;
+  const Eigen::Vector3d& advance(const Eigen::Vector3d& place,
+                                 const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) noexcept;
+
+  /// To take back a tick that was tried.
+  const SlidingState& state() const noexcept { return *this; }
+  void recall(const SlidingState& state) noexcept { static_cast<SlidingState&>(*this) = state; }
 
   /// Forgets the contact and what is left of its force. A probe that is within the body then
   /// touches nothing until it has left it.
   void reset() noexcept;
 
-  bool isTouching() const noexcept { return state_ == State::Touching; }
+  bool isTouching() const noexcept { return phase_ == Phase::Touching; }
   /// x^C; of the last contact while there is none.
   const SurfacePoint& point() const noexcept { return point_; }
   const Eigen::Vector3d& staticPoint() const noexcept { return staticPoint_; }
@@ -110,8 +144,6 @@ class SlidingContact {
   bool isUnserved() const noexcept { return isUnserved_; }
 
  private:
-  enum class State { Unknown, Outside, Touching };
-
   bool begin(const Eigen::Vector3d& place) noexcept;
   void touch(const SurfacePoint& point) noexcept;
   void end() noexcept;
@@ -126,21 +158,6 @@ class SlidingContact {
   std::shared_ptr<const TouchedSurface> surface_;
   double relaxation_, friction_ = 0;
   bool adheres_ = false;
-  int blend_ = kBlendTicks;  ///< share of the new stiffness, of kBlendTicks
-
-  State state_ = State::Unknown;
-  bool hasPlace_ = false;
-  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();    ///< x^H
-  Eigen::Vector3d outside_ = Eigen::Vector3d::Zero();  ///< a place out of the material
-  SurfacePoint point_{0, Eigen::Vector3d::UnitX()};
-  Eigen::Vector3d staticPoint_ = Eigen::Vector3d::Zero(), normal_ = Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d here_ = Eigen::Matrix3d::Zero();  ///< K^H(x^C)
-  double norm_ = 0;                                 ///< of here_, when the tick began
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-
-  int slides_ = 0;
-  double excess_ = 0;
-  bool isHeldBack_ = false, isUnserved_ = false;
 };
 
 }  // namespace palpate

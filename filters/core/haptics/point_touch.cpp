@@ -9,11 +9,25 @@
 #include <string>
 
 namespace palpate {
+namespace {
+
+constexpr int kStepsKept = 6;  ///< of sweeps
+
+int requireTools(int count) {
+  if (count < 1)
+    throw std::invalid_argument("there must be at least 1 tool, not " + std::to_string(count));
+  return count;
+}
+
+}  // namespace
 
 PointTouch::PointTouch(std::shared_ptr<const SurfaceStiffness> stiffness, int toolCount,
-                       double friction) {
-  if (toolCount < 1)
-    throw std::invalid_argument("there must be at least 1 tool, not " + std::to_string(toolCount));
+                       double friction)
+    : coupling_(*stiffness, requireTools(toolCount)),
+      tried_(toolCount),
+      forces_(Eigen::VectorXd::Zero(3 * toolCount)),
+      guess_(forces_),
+      mixing_(3 * toolCount, kStepsKept) {
   setFriction(friction);
   const auto surface = std::make_shared<const TouchedSurface>(stiffness->sharedMesh());
   tools_.assign(toolCount, SlidingContact(stiffness, surface));
@@ -59,8 +73,62 @@ void PointTouch::takeOver() noexcept {
   const Version* wanted = wanted_.load(std::memory_order_acquire);
   if (wanted == current_) return;
   for (SlidingContact& tool : tools_) tool.setStiffness(wanted->stiffness);
+  coupling_.setStiffness(*wanted->stiffness);
   oldestInUse_.store(current_->number, std::memory_order_release);
   current_ = wanted;
+}
+
+/// Moves each probe under the forces that the others have so far.
+/// @return the largest change of a force over the largest force.
+double PointTouch::sweep(bool isFirst) noexcept {
+  double change = 0, largest = 0;
+  guess_ = forces_;
+  for (int i = 0; i < toolCount(); ++i) {
+    SlidingContact& tool = tools_[i];
+    Tried& tried = tried_[i];
+    const Eigen::Vector3d shift =
+        tried.isShifted ? coupling_.shift(i, forces_) : Eigen::Vector3d::Zero();
+    if (isFirst || shift != tried.shift) {
+      if (!isFirst) tool.recall(tried.before);
+      tool.advance(poses_[i].position, shift);
+      tried.shift = shift;
+      tried.isShifted = tried.isShifted || tool.isTouching();
+      if (tool.isTouching()) coupling_.place(i, tool.point(), tool.servedStiffness());
+    }
+    forces_.segment<3>(3 * i) = tool.force();
+    change = std::max(change, (tool.force() - guess_.segment<3>(3 * i)).norm());
+    largest = std::max(largest, tool.force().norm());
+  }
+  return change > 0 ? change / std::max(change, largest) : 0;
+}
+
+void PointTouch::advanceTogether() noexcept {
+  coupling_.setShare(tools_.front().changed());
+  for (int i = 0; i < toolCount(); ++i) {
+    const SlidingContact& tool = tools_[i];
+    tried_[i] = {tool.state(), Eigen::Vector3d::Zero(), tool.isTouching()};
+    forces_.segment<3>(3 * i) = tool.force();
+    if (tool.isTouching() || !tool.force().isZero(0))
+      coupling_.place(i, tool.point(), tool.servedStiffness());
+    else
+      coupling_.remove(i);
+  }
+  double change = sweep(true), last = change;
+  int placed = 0;
+  for (int i = 0; i < toolCount(); ++i) placed += coupling_.isPlaced(i);
+  if (placed < 2) return;
+  coupling_.limit();
+  mixing_.restart();
+  for (certificate_.iterations = 1; change > kTolerance && certificate_.iterations < kMostSweeps;
+       ++certificate_.iterations) {
+    if (change > last) mixing_.restart();
+    last = change;
+    mixing_.next(guess_, forces_);
+    forces_.swap(guess_);
+    change = sweep(false);
+  }
+  certificate_.residual = change;
+  certificate_.budgetCut = change > kTolerance;
 }
 
 ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noexcept {
@@ -68,11 +136,17 @@ ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noe
   certificate_ = {};
   const double mu = friction();
   for (std::size_t i = 0; i < tools_.size(); ++i) {
-    SlidingContact& tool = tools_[i];
     poses_[i] = poses[i];
-    tool.setFriction(mu);
-    tool.setAdhesion((poses[i].buttons & kAdheres) != 0);
-    wrenches[i] = {-tool.advance(poses[i].position), Eigen::Vector3d::Zero()};
+    tools_[i].setFriction(mu);
+    tools_[i].setAdhesion((poses[i].buttons & kAdheres) != 0);
+  }
+  if (tools_.size() == 1)
+    tools_.front().advance(poses_.front().position);
+  else
+    advanceTogether();
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    const SlidingContact& tool = tools_[i];
+    wrenches[i] = {-tool.force(), Eigen::Vector3d::Zero()};
     certificate_.iterations = std::max(certificate_.iterations, tool.slideCount());
     certificate_.contactCount += tool.isTouching();
     certificate_.budgetCut |= tool.wasHeldBack();
