@@ -16,6 +16,7 @@
 namespace palpate::test {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr double kAgreement = 0.2;  ///< of a prediction with what is counted
 
 /// A scene with one or several mice.
@@ -176,6 +177,10 @@ TEST(EvaluationPlans, PredictGravity) {
   expectNear(totalBytes(plan.memory) - plan.memory.back().bytes, heapBytes() - before, "memory");
 }
 
+bool lists(const EvaluationPlan& plan, const std::string& what) {
+  return toText(plan).find(what) != std::string::npos;
+}
+
 /// Ticks ask for the compliance of vertices that come near, and of nothing else.
 TEST(EvaluationPlans, PredictTheTicksOfAStroke) {
   for (const double radius : {0.6, 1.0, 2.0})
@@ -230,6 +235,45 @@ TEST(EvaluationPlans, LetPointsTickWithoutRows) {
   EXPECT_EQ(sum.columns, 0);
 }
 
+/// Ticks of several ask for the compliance between corners that they come to.
+TEST(EvaluationPlans, PredictTheTicksOfPointsThatFeelEachOther) {
+  for (const int tools : {2, 3})
+    for (const double edges : {0.0, 1.5, 2.5}) {
+      const Scene scene =
+          sceneOf(kPoint, "\"masks\": {\"radius_edges\": " + std::to_string(edges) + "}", tools);
+      const Course course(scene);
+      ExpectedTouch touch;
+      touch.speed = 3;
+      const double turn = touch.speed / scene.servo.rate;
+      double ticks = 0, bytes = 0, sweeps = 0;
+      for (int stroke = 0; stroke < 12; ++stroke) {
+        course.session.model()->reset();
+        std::vector<ToolPose> poses(tools);
+        std::vector<Wrench> wrenches(tools);
+        for (int t = 0; t < 400; ++t) {
+          for (int i = 0; i < tools; ++i) {
+            const double along = 0.2 + turn * t, across = 2 * kPi * i / tools + 0.5 * stroke;
+            poses[i].position =
+                (t == 0 ? 1.1 : 0.95) * Eigen::Vector3d(std::sin(along) * std::cos(across),
+                                                        std::sin(along) * std::sin(across),
+                                                        std::cos(along));
+          }
+          if (t == 50) course.greens->clearCounts();
+          sweeps += course.session.model()->step(poses.data(), wrenches.data()).iterations;
+        }
+        bytes += course.greens->counts().bytes;
+        ticks += 350;
+      }
+      const EvaluationPlan plan = planOf(scene, touch);
+      const std::string what =
+          std::to_string(tools) + " points, masks of " + std::to_string(edges) + " edges";
+      ASSERT_TRUE(lists(plan, "compliance between points"));
+      expectNear(plan.tick.at(1).bytes, bytes / ticks, what);
+      RecordProperty("sweeps of " + what, std::to_string(sweeps / ticks * 350 / 400));
+    }
+  EXPECT_FALSE(lists(planOf(sceneOf(kPoint, "")), "compliance between points"));
+}
+
 TEST(EvaluationPlans, PredictProbes) {
   const std::string probes =
       "\"probes\": [{\"name\": \"a\", \"node\": 3}, {\"name\": \"b\", \"node\": 40}], ";
@@ -242,10 +286,6 @@ TEST(EvaluationPlans, PredictProbes) {
   const Scene all = sceneOf(kBall, probes + "\"deformation\": \"all\"");
   const Scene without = sceneOf(kBall, "\"deformation\": \"all\"");
   EXPECT_EQ(total(planOf(all, touch).frame).flops, total(planOf(without, touch).frame).flops);
-}
-
-bool lists(const EvaluationPlan& plan, const std::string& what) {
-  return toText(plan).find(what) != std::string::npos;
 }
 
 TEST(EvaluationPlans, ListNothingThatIsNotAskedFor) {

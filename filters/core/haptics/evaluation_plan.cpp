@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <numeric>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "contact/inverse_updates.h"
@@ -32,6 +30,7 @@ constexpr double kSnapshots = 3;      ///< that a servo loop keeps
 constexpr double kTurnedBlock = 126;  ///< a block that is turned twice and scaled
 constexpr double kRankThree = 162;    ///< an update of the inverse, a pair of contacts
 constexpr double kPointTick = 600;    ///< a point: stiffness, its norm, slip
+constexpr double kCoupling = 400;     ///< a pair of points: weights of corners, norm
 constexpr double kProximity = 30;     ///< a distance to a ball
 constexpr double kTorque = 15;        ///< a contact's torque
 
@@ -94,6 +93,7 @@ class Planner {
                            2 * kBlock * blocks, kNumber * kBlock * blocks});
     plan_.tick.push_back(
         {"points that stick and slide", 0, 0, tools * kPointTick, tools * 3 * kNumber * kBlock});
+    if (tools > 1) planCoupling(tools);
     const double perNode = kNumber * (kBlock + 2) + 1. / 8 + sizeof(VertexMask) + sizeof(int);
     const double perMask = 2 * kAllocation + (kNumber + sizeof(int)) * first_.maskNodes;
     plan_.memory.push_back({"stiffness of the surface and its masks",
@@ -102,6 +102,22 @@ class Planner {
     plan_.memory.push_back({"search and walks on the surface",
                             first_.triangles * (3 * perSide + TriangleTree::bytesPerTriangle())});
     snapshotBytes_ = first_.nodes * kLoadBytes;
+  }
+
+  /// A line crosses 2 / pi times the length of edges in an area of its own length. Each time one
+  /// corner is new, to be coupled with three of each other point.
+  void planCoupling(double tools) {
+    const double crossings = 6 * first_.edge / (kPi * first_.nodeArea);  // a metre
+    const double ways = tools * touch_.speed / scene_.servo.rate;
+    const double columns = 3 * (tools - 1) * crossings * ways * first_.maskNodes;
+    const double blocks = first_.maskNodes * columns, pairs = tools * (tools - 1) / 2;
+    plan_.tick.push_back({"compliance between points that slide", first_.maskNodes, columns,
+                          2 * kBlock * blocks, kNumber * kBlock * blocks});
+    const double perPair = kCoupling + 4 * kBlock;
+    plan_.tick.push_back({"points that feel each other", 0, 0,
+                          touch_.sweeps * (tools * kPointTick + pairs * perPair),
+                          touch_.sweeps * pairs * 10 * kNumber * kBlock});
+    plan_.memory.push_back({"coupling of points", kPairBytes * pairs + kPointBytes * tools});
   }
 
   void planShapes() {
@@ -216,6 +232,8 @@ class Planner {
 
   static constexpr double kMeshVertex = 7 * kNumber + 2 * sizeof(int);  ///< bytes of a SurfaceMesh
   static constexpr double kMeshTriangle = 4 * kNumber + 6 * sizeof(int);
+  static constexpr double kPairBytes = 20 * kNumber * kBlock;  ///< corners, now and before
+  static constexpr double kPointBytes = 800;                   ///< its state, to take ticks back
   static constexpr double kAllocation = 12;  ///< bytes that a block of heap memory costs besides
   static constexpr double kLoadBytes = 2 * sizeof(int) + sizeof(Eigen::Vector3d);
 
@@ -263,42 +281,6 @@ void measureMasks(const SceneBody& body, const SceneEffects& effects, BodySizes&
     area += mesh.triangleAreas()[f];
   }
   if (area > 0) sizes.pointNodes /= area;
-}
-
-/// With three digits and a prefix.
-std::string engineering(double value) {
-  static constexpr const char* kPrefixes[] = {"", "k", "M", "G", "T", "P"};
-  std::size_t prefix = 0;
-  while (std::abs(value) >= 999.5 && prefix + 1 < std::size(kPrefixes)) {
-    value /= 1000;
-    ++prefix;
-  }
-  std::ostringstream text;
-  text << std::setprecision(3) << value << (*kPrefixes[prefix] ? " " : "") << kPrefixes[prefix];
-  return text.str();
-}
-
-constexpr int kNameWidth = 42, kNumberWidth = 10;
-
-void writeTable(std::ostringstream& text, const std::string& title,
-                const std::vector<PlannedWork>& list) {
-  text << std::left << std::setw(kNameWidth) << title << std::right;
-  for (const char* head : {"rows", "columns", "flops", "bytes"})
-    text << std::setw(kNumberWidth) << head;
-  text << '\n';
-  const auto write = [&](const PlannedWork& work) {
-    text << std::left << std::setw(kNameWidth) << "  " + work.what << std::right;
-    for (const double number : {work.rows, work.columns, work.flops, work.bytes})
-      text << std::setw(kNumberWidth) << (number > 0 ? engineering(number) : "-");
-    text << '\n';
-  };
-  if (list.empty()) text << "  nothing\n";
-  for (const PlannedWork& work : list) write(work);
-  if (list.size() > 1) {
-    PlannedWork sum = total(list);
-    sum.rows = sum.columns = 0;
-    write(sum);
-  }
 }
 
 }  // namespace
@@ -350,27 +332,6 @@ PlannedWork total(const std::vector<PlannedWork>& list) {
 double totalBytes(const std::vector<PlannedMemory>& list) {
   return std::accumulate(list.begin(), list.end(), 0.,
                          [](double sum, const auto& entry) { return sum + entry.bytes; });
-}
-
-std::string toText(const EvaluationPlan& plan) {
-  std::ostringstream text;
-  text << engineering(plan.loaded) << " nodes under forces";
-  if (plan.watched > 0) text << ", " << engineering(plan.watched) << " watched";
-  text << "\n\n";
-  if (!plan.setup.empty()) {
-    writeTable(text, "once", plan.setup);
-    text << '\n';
-  }
-  writeTable(text, "a tick, " + engineering(plan.rate) + " a second", plan.tick);
-  text << '\n';
-  writeTable(text, "a frame", plan.frame);
-  text << "\nmemory\n";
-  for (const PlannedMemory& entry : plan.memory)
-    text << std::left << std::setw(kNameWidth) << "  " + entry.what << std::right
-         << std::setw(4 * kNumberWidth) << engineering(entry.bytes) + "B" << '\n';
-  text << std::left << std::setw(kNameWidth) << "  together" << std::right
-       << std::setw(4 * kNumberWidth) << engineering(totalBytes(plan.memory)) + "B" << '\n';
-  return text.str();
 }
 
 }  // namespace palpate

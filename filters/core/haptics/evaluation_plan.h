@@ -34,6 +34,7 @@ struct ExpectedTouch {
   double speed = 0.1;     ///< m/s, of tools along the surface
   double visible = 0.5;   ///< share of a body's nodes in view
   double iterations = 8;  ///< of a tick's solve; 4 to 9 in strokes of balls
+  double sweeps = 8;      ///< of a tick over points that feel each other; 6 to 9 in strokes
 };
 
 /// One thing that is computed. Rows and columns of Green's functions are nodes of three each.
