@@ -112,6 +112,14 @@ TEST(Scenes, OfOnePointNeedFourLines) {
   EXPECT_EQ(scene.servo.rate, 1000);
 }
 
+TEST(Scenes, LetToolsHoldWhatTheyTouch) {
+  EXPECT_FALSE(parseScene(with(kShapes, "\"unilateral\": true", "\"unilateral\": false"))
+                   .effects.unilateral);
+  EXPECT_TRUE(parseScene(with(kShapes, "\"unilateral\": true,", "")).effects.unilateral);
+  EXPECT_FALSE(
+      parseScene(with(kPoint, "\"masks\"", "\"unilateral\": false, \"masks\"")).effects.unilateral);
+}
+
 TEST(Scenes, EveryMistakeNamesItsKey) {
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"0.008", "-1",
@@ -189,8 +197,6 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
       {"{\"mu\": 0.3}", "0.3", "\"effects.friction\" must be an object in braces"},
       {"{\"mu\": 0.3}", "{}", "\"effects.friction.mu\" is missing"},
       {"\"mu\": 0.3", "\"mu\": -0.3", "\"effects.friction.mu\" must be a number from 0"},
-      {"\"unilateral\": true", "\"unilateral\": false",
-       "\"effects.unilateral\" must be true for tools with a shape"},
       {"\"unilateral\": true", "\"unilateral\": 1",
        "\"effects.unilateral\" must be true or false, not 1"},
       {"\"torque\": true", "\"torque\": \"yes\"", "\"effects.torque\" must be true or false"},

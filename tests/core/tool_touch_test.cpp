@@ -154,17 +154,55 @@ TEST(ToolTouch, APartnerBearsTheOppositeLoads) {
   EXPECT_GT(upper.displacement()(2, pole), 0);
 }
 
+/// A hand's worth of torque comes with the pull: the tool is turned about what it holds.
+TEST(ToolTouch, ToolsThatHoldPullAndTwistWhileTheirButtonsArePressed) {
+  const TouchedBody body = touchedSphere(3, true);
+  for (const bool holds : {false, true}) {
+    ToolTouch touch(body.greens, body.mesh, {ballTool(0.3), std::make_shared<Pair>()}, 0.3);
+    touch.setHolds(holds);
+    ToolPose poses[2] = {at(-0.9, 0, 0.9), at(0.1, 0, 1.1)};
+    Wrench wrenches[2], before[2];
+    for (int tick = 0; tick < 10; ++tick) touch.step(poses, before);
+    poses[1].buttons = ToolTouch::kHolds;
+    touch.step(poses, wrenches);
+    EXPECT_LE((wrenches[1].force - before[1].force).norm(), 1e-6 * before[1].force.norm());
+    poses[1].position += Eigen::Vector3d(0, 0, 0.2);
+    poses[1].orientation =
+        Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ())) * poses[1].orientation;
+    touch.step(poses, wrenches);
+    if (!holds) {
+      EXPECT_EQ(wrenches[1].force, Eigen::Vector3d::Zero());
+      continue;
+    }
+    EXPECT_LT(wrenches[1].force.z(), 0);
+    EXPECT_LT(wrenches[1].torque.z(), 0) << "against the twist";
+    EXPECT_GT(wrenches[0].force.norm(), 0) << "the other one presses still";
+    ContactSnapshot snapshot = touch.makeSnapshot();
+    touch.fill(snapshot);
+    EXPECT_TRUE(snapshot.tools[1].touching);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < snapshot.loadedCount; ++i) sum += snapshot.loads[i];
+    EXPECT_LE((sum + wrenches[0].force + wrenches[1].force).norm(), 1e-12);
+    poses[1].buttons = 0;
+    touch.step(poses, wrenches);
+    EXPECT_EQ(wrenches[1].force, Eigen::Vector3d::Zero());
+    EXPECT_EQ(wrenches[1].torque, Eigen::Vector3d::Zero());
+  }
+}
+
 TEST(ToolTouch, TicksDoNotAllocate) {
   ASSERT_TRUE(allocationsAreCounted());
   const TouchedBody body = touchedSphere(2, true);
   UnilateralContactSettings settings;
   settings.solver.largestUpdates = 8;
   ToolTouch touch(body.greens, body.mesh, {ballTool(0.3), std::make_shared<Pair>()}, 0.3, settings);
+  touch.setHolds(true);
   ContactSnapshot snapshot = touch.makeSnapshot();
   Wrench wrenches[2];
   const long before = allocationCount();
   for (int tick = 0; tick < 50; ++tick) {
-    const ToolPose poses[2] = {at(0.01 * tick, 0, 1.25), at(0, 0.01 * tick, 1.15)};
+    ToolPose poses[2] = {at(0.01 * tick, 0, 1.25), at(0, 0.01 * tick, 1.15)};
+    poses[0].buttons = tick % 20 > 15 ? ToolTouch::kHolds : 0;
     touch.step(poses, wrenches);
     touch.fill(snapshot);
   }

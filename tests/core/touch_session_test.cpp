@@ -67,6 +67,26 @@ int loadedCount(const Counted& counted) {
           .nodes.size());
 }
 
+/// Tools that are not unilateral pull with their first button.
+TEST(TouchSessions, HoldWhatIsTouchedIfTheSceneSaysSo) {
+  const TouchedBody body = touchedSphere(2, true);
+  for (const bool unilateral : {true, false}) {
+    Counted counted(body, kBall, std::string("\"unilateral\": ") + (unilateral ? "true" : "false"));
+    counted.press(0, 1.2);
+    ToolPose pose;
+    pose.buttons = 1;
+    for (const double height : {1.2, 1.2, 1.4}) {
+      pose.position = {0, 0, height};
+      counted.session.model()->step(&pose, &counted.wrench);
+    }
+    if (unilateral) {
+      EXPECT_EQ(counted.wrench.force, Eigen::Vector3d::Zero());
+    } else {
+      EXPECT_LT(counted.wrench.force.z(), 0);
+    }
+  }
+}
+
 TEST(TouchSessions, TouchWithPointsOrWithShapes) {
   const TouchedBody body = touchedSphere(2, true);
   Counted point(body, kPoint, "\"friction\": {\"mu\": 0.4}");

@@ -83,6 +83,9 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     obstacles_.push_back(std::move(moving));
   }
   anchors_.resize(settings.capacity);
+  isHeldVertex_.assign(mesh_->vertexCount(), false);
+  holders_.assign(mesh_->vertexCount(), 0);
+  holderOf_.assign(mesh_->vertexCount(), -1);
   loadedNodes_.resize(4 * std::size_t(settings.capacity));
   tractions_.setZero(12 * Eigen::Index(settings.capacity));
   centre_ = (mesh_->points().rowwise().minCoeff() + mesh_->points().rowwise().maxCoeff()) / 2;
@@ -108,6 +111,8 @@ void UnilateralContact::reset() noexcept {
     std::fill(moving.isWatched.begin(), moving.isWatched.end(), false);
   }
   for (std::vector<int>& parts : partOf_) std::fill(parts.begin(), parts.end(), -1);
+  std::fill(isHeldVertex_.begin(), isHeldVertex_.end(), false);
+  std::fill(holders_.begin(), holders_.end(), 0);
   penetration_ = 0;
 }
 
@@ -158,7 +163,7 @@ void UnilateralContact::turnBodies(const RigidPose* poses) noexcept {
 void UnilateralContact::moveSites() noexcept {
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
     const Anchor anchor = anchors_[contact];
-    if (obstacles_[anchor.obstacle].body == 0) continue;
+    if (obstacles_[anchor.obstacle].body == 0 || anchor.isHeld) continue;
     const Proximity near = proximity(anchor.obstacle, placeOf(contact));
     const ContactSite site = siteAt(anchor.obstacle, anchor.vertex, near);
     if (differ(site, solver_.compliance().site(contact))) solver_.move(contact, site);
@@ -178,11 +183,16 @@ void UnilateralContact::linearise() noexcept {
   for (int contact = 0; contact < solver_.count(); ++contact) {
     Anchor& anchor = anchors_[contact];
     const Moving& moving = obstacles_[anchor.obstacle];
+    ContactConditions& conditions = solver_.conditions(contact);
+    conditions.bilateral = anchor.isHeld;
+    if (anchor.isHeld) {
+      conditions.offset = restPlace(contact) - moving.pose.toWorld(anchor.place);
+      continue;
+    }
     const Eigen::Vector3d place = placeOf(contact);
     const Proximity near = proximity(anchor.obstacle, place);
     if (!anchor.place.allFinite()) anchor.place = moving.pose.toOwn(place);
     const Eigen::Vector3d moved = place - moving.pose.toWorld(anchor.place);
-    ContactConditions& conditions = solver_.conditions(contact);
     const Eigen::Vector3d displacement = solver_.displacement(contact);
     const Eigen::Vector3d normal = normalOf(anchor, near);
     conditions.normal = normal;
@@ -206,6 +216,7 @@ void UnilateralContact::settle() noexcept {
 
 ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
   overflowed_ = false;
+  hold();
   turnBodies(poses);
   dismiss();
   gatherLoads();
@@ -254,7 +265,8 @@ UnilateralContact::Watched UnilateralContact::watched(int contact) const noexcep
           solver_.status(contact),
           stiffnessScale_ * solver_.force(contact),
           solver_.displacement(contact),
-          anchor.gap};
+          anchor.gap,
+          anchor.isHeld};
 }
 
 }  // namespace palpate

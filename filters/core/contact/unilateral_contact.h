@@ -54,6 +54,12 @@ struct UnilateralContactSettings {
 /// the last step, and solves for the forces from the last ones on. Steps are quasi-static; sticking
 /// vertices keep the place on the obstacle where they stuck, and move with it.
 ///
+/// An obstacle can hold what it touches (setHeld): its contacts then neither part nor slip, points
+/// inside triangles stay where they are, and it pulls. What comes to bear a force meanwhile is held
+/// as well. A surface that is held cannot yield: no obstacle touches a vertex that another holds or
+/// has a held point beside, nor the inside of a triangle with such a corner; and a point inside a
+/// triangle is held only as long as it has a corner of its own.
+///
 /// Of two elastic bodies the vertices of the first meet the surface of the second: the finer mesh
 /// should be the first.
 ///
@@ -76,6 +82,10 @@ class UnilateralContact {
   /// Forgets all contact.
   void reset() noexcept;
 
+  /// Whether an obstacle holds what it touches, from the next step on; or lets go of it.
+  void setHeld(int obstacle, bool held) noexcept;
+  bool isHeld(int obstacle) const { return obstacles_[obstacle].isHeld; }
+
   /// What the surface does to an obstacle, about its position. N, N m.
   Wrench wrench(int obstacle) const noexcept;
   /// Its force alone, N.
@@ -92,6 +102,7 @@ class UnilateralContact {
     Eigen::Vector3d force;         ///< on the surface, N
     Eigen::Vector3d displacement;  ///< relative to an elastic obstacle's, m
     double gap;                    ///< to the obstacle as it is after the step, m
+    bool held;                     ///< neither parts nor slips
   };
   Watched watched(int contact) const noexcept;
   /// Where a watched point lies undeformed, m.
@@ -150,6 +161,13 @@ class UnilateralContact {
   void inheritSlip(int contact, const Eigen::Vector3d& place) noexcept;
   bool followInside(bool betweenSteps) noexcept;
 
+  void hold() noexcept;
+  void setHeldAt(int contact, bool held) noexcept;
+  bool canHold(int contact) const noexcept;
+  bool isHeldBeside(int triangle) const noexcept;
+  bool isHeldFrom(int obstacle, int vertex) const noexcept;
+  bool isDetermined(int contact) const noexcept;
+
   void linearise() noexcept;
   void settle() noexcept;
   void moveSites() noexcept;
@@ -164,6 +182,7 @@ class UnilateralContact {
     int body = 0;  ///< number of an elastic obstacle among the bodies
     RigidPose pose;
     bool placed = false;
+    bool isHeld = false;             ///< whether it holds what it touches
     std::vector<double> lookAt;      ///< a vertex: travelled_ at which to look again
     std::vector<char> isWatched;     ///< a vertex
     std::vector<int> large;          ///< triangles to be touched inside
@@ -177,6 +196,7 @@ class UnilateralContact {
     Eigen::Vector3d place;  ///< in the obstacle's frame, where it is or sticks
     double gap;
     Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
+    bool isHeld = false;
   };
 
   std::shared_ptr<const SurfaceMesh> mesh_;
@@ -187,6 +207,9 @@ class UnilateralContact {
   std::vector<int> loadedNodes_;  ///< free ones of the first body, of all forces
   Eigen::VectorXd tractions_;     ///< on them, Pa
   int loadCount_ = 0;
+  std::vector<char> isHeldVertex_;        ///< a vertex
+  std::vector<int> holders_;              ///< a vertex: held points that move with it,
+  std::vector<int> holderOf_;             ///< and the obstacle that holds them
   std::vector<std::vector<int>> partOf_;  ///< a tool and vertex: the part that it is watched with
   Eigen::Vector3d centre_;                ///< of a ball that holds the surface
   double travelled_ = 0;  ///< m, no point of an obstacle near the surface has moved farther

@@ -133,6 +133,7 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
   Moving& moving = obstacles_[obstacle];
   double& lookAt = moving.lookInside[slot];
   const int triangle = moving.large[slot];
+  if (isHeldBeside(triangle)) return;
   const Eigen::Matrix3d corners = restCorners(triangle);
   const Eigen::Vector3d middle = corners.rowwise().mean();
   const double size = (corners.colwise() - middle).colwise().norm().maxCoeff();
@@ -212,7 +213,7 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
   gatherLoads();
   solver_.updateDisplacements();
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
-    if (anchors_[contact].vertex >= 0) continue;
+    if (anchors_[contact].vertex >= 0 || anchors_[contact].isHeld) continue;
     const int obstacle = anchors_[contact].obstacle, slot = anchors_[contact].slot;
     Moving& moving = obstacles_[obstacle];
     const Eigen::Matrix3d corners = cornersOf(moving.large[slot]);

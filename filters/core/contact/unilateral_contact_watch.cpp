@@ -58,6 +58,7 @@ double UnilateralContact::wayLeft(double gap, double nearness) const noexcept {
 /// Watches a vertex that is near, and tells when to look at it again if it is not.
 void UnilateralContact::look(int obstacle, int vertex) noexcept {
   Moving& moving = obstacles_[obstacle];
+  if (isHeldFrom(obstacle, vertex)) return;  // looked at again as long as it is
   const Eigen::Vector3d place = mesh_->points().col(vertex);
   const double reach = moving.obstacle.shape->reach();
   const double atLeast = (place - moving.pose.position).norm() - reach;

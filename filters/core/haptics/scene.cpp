@@ -224,9 +224,8 @@ void readContact(JsonSection& section, bool ofPoints, SceneEffects& effects) {
   effects.unilateral = !ofPoints;
   readIf(section, "unilateral", [&](const Json& found, const std::string& at) {
     effects.unilateral = readFlag(found, at);
-    if (effects.unilateral == ofPoints)
-      refuseKey(at, ofPoints ? "must be false for points, which let go of the surface by themselves"
-                             : "must be true for tools with a shape, which have no other contact");
+    if (effects.unilateral && ofPoints)
+      refuseKey(at, "must be false for points, which let go of the surface by themselves");
   });
   readIf(section, "torque", [&](const Json& found, const std::string& at) {
     effects.torque = readFlag(found, at);

@@ -72,9 +72,11 @@ enum class DeformationRows { All, Visible, Contact, None };
 /// What is simulated. What is not asked for costs nothing.
 struct SceneEffects {
   DeformationRows deformation = DeformationRows::All;
-  double friction = 0;      ///< Coulomb's mu between the first model and the tools
-  bool unilateral = false;  ///< contact of tools with a shape (UnilateralContact)
-  bool torque = false;      ///< whether torques are computed and sent
+  double friction = 0;  ///< Coulomb's mu between the first model and the tools
+  /// Whether tools with a shape only ever press (UnilateralContact); otherwise their first button
+  /// holds what they touch, as that of points does always.
+  bool unilateral = false;
+  bool torque = false;                                ///< whether torques are computed and sent
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2
   std::vector<SceneProbe> probes;
   MaskShape maskShape = MaskShape::Linear;
@@ -109,11 +111,12 @@ struct SceneEffects {
 ///   "description" or "vendor_id" and "product_id" of a hid one; "mapping": {"scale" (1), "origin"
 ///   (0), "rotation" (none), "force_scale" (1)}}. Each moves one tool.
 /// - "effects": {"deformation": all, visible, contact or none (all), "friction": {"mu"} (0),
-///   "unilateral" (true with shapes, false with points), "torque" (false), "gravity" in m/s^2 (0),
-///   "probes": a list of {"name", and "node" or "position"} (none), "masks" of points: {"shape":
-///   linear, uniform, gaussian or hertzian (linear), "radius" or "radius_edges" (the vertex
-///   alone)}, "stiffness_limit" in N/m (the model's own), "stiffness_scale" (1), "elastic_elastic"
-///   (false)}.
+///   "unilateral" (true with shapes: they only press; false, as always with points: what they touch
+///   is held, and pulled, while the first button of their device is pressed), "torque" (false),
+///   "gravity" in m/s^2 (0), "probes": a list of {"name", and "node" or "position"} (none), "masks"
+///   of points: {"shape": linear, uniform, gaussian or hertzian (linear), "radius" or
+///   "radius_edges" (the vertex alone)}, "stiffness_limit" in N/m (the model's own),
+///   "stiffness_scale" (1), "elastic_elastic" (false)}.
 /// - "servo": {"rate" in Hz (1000), "budget" (0.7), "snapshot_ticks" (1), "passivity_damping" in N
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
 /// - "solver", of tools with a shape: {"capacity" (128), "margin" in m (half an edge),

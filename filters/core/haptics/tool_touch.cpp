@@ -52,6 +52,9 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
   for (int t = 0; t < toolCount(); ++t) {
     tools_[t].pose = poses[t];
     tools_[t].tool->place(poses[t], poses_.data() + tools_[t].firstPart);
+    const bool holds = holds_ && (poses[t].buttons & kHolds) != 0;
+    for (int part = 0; part < tools_[t].tool->partCount(); ++part)
+      contact_.setHeld(tools_[t].firstPart + part, holds);
   }
   certificate_ = contact_.step(poses_.data());
   for (int t = 0; t < toolCount(); ++t) {

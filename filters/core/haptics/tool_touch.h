@@ -21,9 +21,12 @@ struct ElasticPartner {
 };
 
 /// Tools with a shape of their own that touch one elastic surface by UnilateralContact, all coupled
-/// through it, with force and torque for each.
+/// through it, with force and torque for each. If they are to hold (setHolds), button 0 makes a
+/// tool hold what it touches and comes to touch, so that it grips and pulls, until it is released.
 class ToolTouch final : public TouchModel {
  public:
+  static constexpr std::uint32_t kHolds = 1;  ///< the button's bit
+
   /// @param friction  Coulomb's mu between the surface and all tools.
   /// @param partners  other bodies that the surface meets; tools do not touch them.
   /// @throws std::invalid_argument as UnilateralContact, and without a tool.
@@ -43,6 +46,8 @@ class ToolTouch final : public TouchModel {
   void setFriction(double friction) noexcept;
   /// Whether torques are computed, as they are at first; otherwise they are zero, in snapshots too.
   void setTorques(bool computed) noexcept { torques_ = computed; }
+  /// Whether tools hold the surface while their buttons are pressed; at first they do not.
+  void setHolds(bool hold) noexcept { holds_ = hold; }
   /// @param scale  of all forces, positive.
   void setStiffnessScale(double scale) noexcept;
 
@@ -62,7 +67,7 @@ class ToolTouch final : public TouchModel {
   std::vector<RigidPose> poses_;  ///< of all obstacles
   UnilateralContact contact_;
   ContactCertificate certificate_;
-  bool torques_ = true;
+  bool torques_ = true, holds_ = false;
 };
 
 }  // namespace palpate

@@ -126,6 +126,7 @@ std::shared_ptr<TouchModel> toolTouch(
   auto touch = std::make_shared<ToolTouch>(bodies[0].greens, bodies[0].mesh, std::move(tools),
                                            effects.friction, scene.solver, partners);
   touch->setTorques(effects.torque);
+  touch->setHolds(!effects.unilateral);
   touch->setStiffnessScale(effects.stiffnessScale);
   return touch;
 }

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Contacts that are held.
+
+#include <algorithm>
+
+#include "contact/unilateral_contact.h"
+
+namespace palpate {
+
+void UnilateralContact::setHeld(int obstacle, bool held) noexcept {
+  Moving& moving = obstacles_[obstacle];
+  if (moving.isHeld == held) return;
+  moving.isHeld = held;
+  if (held) return;
+  for (int contact = 0; contact < solver_.count(); ++contact)
+    if (anchors_[contact].obstacle == obstacle) setHeldAt(contact, false);
+}
+
+void UnilateralContact::setHeldAt(int contact, bool held) noexcept {
+  Anchor& anchor = anchors_[contact];
+  if (anchor.isHeld == held) return;
+  anchor.isHeld = held;
+  if (anchor.vertex >= 0) isHeldVertex_[anchor.vertex] = held;
+  const ContactSite& where = site(contact);
+  for (int p = 0; p < where.count; ++p)
+    if (where.parts[p].body == 0) {
+      holders_[where.parts[p].node] += held ? 1 : -1;
+      holderOf_[where.parts[p].node] = anchor.obstacle;
+    }
+}
+
+/// Whether a vertex cannot yield to an obstacle, because it is held or goes with what another
+/// holds.
+bool UnilateralContact::isHeldFrom(int obstacle, int vertex) const noexcept {
+  return holders_[vertex] > 0 && (isHeldVertex_[vertex] || holderOf_[vertex] != obstacle);
+}
+
+bool UnilateralContact::isHeldBeside(int triangle) const noexcept {
+  for (int k = 0; k < 3; ++k)
+    if (holders_[mesh_->triangles()(k, triangle)] > 0) return true;
+  return false;
+}
+
+/// Whether a point can be held without being said twice where it is.
+bool UnilateralContact::canHold(int contact) const noexcept {
+  const Anchor& anchor = anchors_[contact];
+  if (anchor.vertex >= 0) return !isHeldFrom(anchor.obstacle, anchor.vertex);
+  const ContactSite& where = site(contact);
+  bool hasOwnCorner = false;
+  for (int p = 0; p < where.count; ++p) {
+    const int node = where.parts[p].node;
+    hasOwnCorner = hasOwnCorner || holders_[node] == 0;
+    if (holders_[node] > 0 && holderOf_[node] != anchor.obstacle) return false;
+  }
+  return hasOwnCorner;
+}
+
+/// Whether what is held says where a contact is already, or could not yield to it.
+bool UnilateralContact::isDetermined(int contact) const noexcept {
+  const Anchor& anchor = anchors_[contact];
+  const ContactSite& where = site(contact);
+  if (!anchor.isHeld)
+    return anchor.vertex >= 0 ? isHeldFrom(anchor.obstacle, anchor.vertex)
+                              : isHeldBeside(obstacles_[anchor.obstacle].large[anchor.slot]);
+  if (anchor.vertex >= 0) return false;
+  for (int p = 0; p < where.count; ++p)
+    if (holders_[where.parts[p].node] == 1) return false;
+  return true;
+}
+
+/// Holds all that bears a force on an obstacle that holds, where it is on the obstacle, and lets go
+/// of what is determined by that: vertices first, then points inside triangles.
+void UnilateralContact::hold() noexcept {
+  bool isNew = false;
+  for (const bool inside : {false, true})
+    for (int contact = 0; contact < solver_.count(); ++contact) {
+      Anchor& anchor = anchors_[contact];
+      const Moving& moving = obstacles_[anchor.obstacle];
+      if (!moving.isHeld || anchor.isHeld || (anchor.vertex < 0) != inside ||
+          solver_.status(contact) == ContactStatus::Open || !canHold(contact))
+        continue;
+      anchor.place = moving.pose.toOwn(placeOf(contact));
+      setHeldAt(contact, true);
+      isNew = true;
+    }
+  if (!isNew) return;
+  for (int contact = solver_.count() - 1; contact >= 0; --contact) {
+    if (!isDetermined(contact)) continue;
+    const Anchor anchor = anchors_[contact];
+    Moving& moving = obstacles_[anchor.obstacle];
+    if (anchor.vertex < 0)
+      moving.lookInside[anchor.slot] = travelled_;
+    else
+      moving.lookAt[anchor.vertex] = travelled_;
+    setHeldAt(contact, false);
+    unwatch(contact);
+  }
+}
+
+}  // namespace palpate
