@@ -23,7 +23,9 @@ namespace palpate {
 /// surface by d_i = sum over j of C_ij f_j at a probe's contact (PointCoupling), and its own force
 /// is K^H (x^H - d - x^C). A tick sweeps over the probes (Gauss-Seidel), each from where the tick
 /// before left it, until no force changes by more than kTolerance of the largest, or kMostSweeps
-/// times; the next tick goes on from there. Where only one touches there is nothing to sweep.
+/// times; the next tick goes on from there. (Slips are settled to 1e-6 of a force, which can keep
+/// sweeps from the tolerance: the certificate tells.) Where only one touches there is nothing to
+/// sweep.
 ///
 /// Continuity. SlidingContact's bound holds for each, with its own step and that of d_i: for two,
 /// with b_i = |K_i| (|step of x^H_i| + relaxation) + |K_i| |change of C_ij| |f_j| and q the product
