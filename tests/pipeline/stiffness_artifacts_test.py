@@ -34,6 +34,20 @@ class Artifacts(unittest.TestCase):
             single, masked = palpate.array(found, "ArtifactVariation")[0]
             self.assertLess(masked, 0.8 * single)
 
+    def test_of_masks_clear_of_the_support_vary_less_than_single_vertices_at_a_fixed_radius(self):
+        # At the support finer meshes show more of the body's own rise, with or without masks.
+        found = palpate.stiffness_artifacts(kidney(4), 0.016)
+        clear = (palpate.array(kidney(4), "BoundaryType") == 0) & (
+            palpate.array(found, "MaskSupportShare") == 0)
+        area = palpate.array(found, "VertexArea")[clear]
+
+        def variation(name):
+            ratio = 1 + palpate.array(found, name)[clear]
+            mean = np.average(ratio, weights=area)
+            return np.average((ratio - mean)**2, weights=area)**0.5 / mean
+
+        self.assertLess(variation("StiffnessArtifact"), 0.7 * variation("SingleVertexArtifact"))
+
     def test_says_all_that_the_stiffness_says_and_the_same(self):
         found = palpate.stiffness_artifacts(self.model, 0.016, "hertzian", measure="mean")
         plain = palpate.stiffness(self.model, 0.016, "hertzian", measure="mean")
@@ -83,8 +97,8 @@ class Artifacts(unittest.TestCase):
             self.assertGreater(count, 0.8 * self.free.sum())
             changes.append((median, ninety_fifth))
         self.assertGreater(changes[0][0], 0.7)   # h halves: nearly twice as stiff
-        self.assertLess(abs(changes[1][0]), 0.05)
-        self.assertLess(changes[1][1], 0.15)
+        self.assertLess(abs(changes[1][0]), 0.01)
+        self.assertLess(changes[1][1], 0.05)
 
     def test_against_itself_nothing_changes(self):
         plain = palpate.stiffness(self.model, radius_in_edges=2)
