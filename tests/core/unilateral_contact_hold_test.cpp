@@ -176,17 +176,19 @@ TEST(UnilateralContactHold, DoesNoWorkRoundAClosedPath) {
   EXPECT_LE(std::abs(work), 1e-8 * largest);
 }
 
-/// Compliance of the point of a contact inside a triangle.
+/// Compliance of the point of a contact inside a triangle, ContactSite::spread of the way to the
+/// mean of its nodes' own.
 Eigen::Matrix3d siteCompliance(const GreensFunctions& greens, const ContactSite& site) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), block;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), mean = Eigen::Matrix3d::Zero(), block;
   for (int k = 0; k < site.count; ++k)
     for (int l = 0; l < site.count; ++l) {
       const int row = site.parts[k].node, column = site.parts[l].node;
       greens.gather(Eigen::Map<const Eigen::VectorXi>(&row, 1),
                     Eigen::Map<const Eigen::VectorXi>(&column, 1), block.data());
       sum += site.parts[k].weight * site.parts[l].weight / greens.vertexArea(column) * block;
+      if (k == l) mean += site.parts[k].weight / greens.vertexArea(column) * block;
     }
-  return sum;
+  return (1 - site.spread) * sum + site.spread * mean;
 }
 
 TEST(UnilateralContactHold, PointsInsideTrianglesStayWhereTheyAre) {
