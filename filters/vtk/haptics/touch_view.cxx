@@ -151,6 +151,7 @@ void TouchView::RemoveProps()
   {
     this->Window->RemoveRenderer(this->Above);
   }
+  this->Window = nullptr;
 }
 
 void TouchView::AddProps()
