@@ -77,6 +77,7 @@ void printProblem(vtkPolyData* surface) {
   for (const std::string& source : fieldStrings(surface, "GreensFunctionSource"))
     printRow("made by", source);
   printField("ConditionEstimate", "condition number");
+  printErrors(surface);
   printField("ReciprocityDefect", "reciprocity defect");
   printField("RotationDefect", "integration defect");
   printField("SolverResidual", "solver residual");

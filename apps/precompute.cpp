@@ -9,6 +9,8 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
+#include <vtkSmartPointer.h>
+#include <vtkToleranceGreensFunctions.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -27,11 +29,48 @@ struct Options {
   std::string fixedArray;
   std::vector<double> halfSpace, box, sphere;
   std::string precision = "double", collocation = "averaged", domain = "interior";
-  double tolerance = 1e-6, smoothAngle = 30;
-  bool raw = false, patchColumns = false;
+  double integrationTolerance = 1e-6, smoothAngle = 30;
+  double tolerance = 0;  // of the error, 0 for none
+  int levels = 4, vertices = 3000;
+  bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
   int threads = 0;
 };
+
+void addAccuracyOptions(CLI::App& command, Options& o) {
+  const char* const chosen = "By tolerance (what is cheapest is chosen)";
+  CLI::Option* tolerance =
+      command
+          .add_option("--tolerance", o.tolerance,
+                      "Largest relative error, estimated, e.g. 0.05: refines the surface as needed")
+          ->check(CLI::Range(1e-12, 1 - 1e-12))
+          ->group(chosen);
+  command.add_option("--max-levels", o.levels, "Refinements at most, 0 to keep the surface")
+      ->check(CLI::Range(0, 9))
+      ->needs(tolerance)
+      ->capture_default_str()
+      ->group(chosen);
+  command.add_option("--max-vertices", o.vertices, "Vertices of a refined surface at most")
+      ->check(CLI::Range(4, 100000))
+      ->needs(tolerance)
+      ->capture_default_str()
+      ->group(chosen);
+  command.add_option("--precision", o.precision, "double, mixed or float")
+      ->check(CLI::IsMember({"double", "mixed", "float"}))
+      ->excludes(tolerance)
+      ->capture_default_str();
+  command
+      .add_option("--integration-tolerance", o.integrationTolerance,
+                  "Relative tolerance of the integrals")
+      ->excludes(tolerance)
+      ->capture_default_str();
+  command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions")
+      ->excludes(tolerance);
+  command.add_flag(
+      "--support-patch", o.supportPatch,
+      "End the support's traction at its rim, not half an edge beyond (more accurate)");
+  command.add_flag("--no-estimate", o.noEstimate, "Do not estimate the error")->excludes(tolerance);
+}
 
 void addOptions(CLI::App& command, Options& o) {
   command.add_option("input", o.input, "A closed triangle surface")->required();
@@ -63,11 +102,7 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("--fix-sphere", o.sphere, "Fix vertices in a ball: centre, radius")
       ->expected(4)
       ->group("Support (by default the file's array BoundaryType)");
-  command.add_option("--precision", o.precision, "double, mixed or float")
-      ->check(CLI::IsMember({"double", "mixed", "float"}))
-      ->capture_default_str();
-  command.add_option("--tolerance", o.tolerance, "Relative tolerance of the integration")
-      ->capture_default_str();
+  addAccuracyOptions(command, o);
   command.add_option("--collocation", o.collocation, "averaged, or vertex as in the paper")
       ->check(CLI::IsMember({"averaged", "vertex"}))
       ->capture_default_str();
@@ -77,7 +112,6 @@ void addOptions(CLI::App& command, Options& o) {
   command
       .add_option("--smooth-angle", o.smoothAngle, "Traction may jump at sharper edges, degrees")
       ->capture_default_str();
-  command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions");
   command.add_flag("--patch-columns", o.patchColumns,
                    "Also responses to tractions on single patches of sharp edges");
   command.add_flag("--raw", o.raw, "Do not symmetrise the compliance");
@@ -97,9 +131,11 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   filter->SetPrecision(o.precision == "mixed" ? 1 : o.precision == "float" ? 2 : 0);
   filter->SetCollocation(o.collocation == "vertex");
   filter->SetDomain(o.domain == "exterior");
-  filter->SetTolerance(o.tolerance);
+  filter->SetTolerance(o.integrationTolerance);
   filter->SetSmoothAngle(o.smoothAngle);
   filter->SetReciprocal(!o.raw);
+  filter->SetEstimateError(!o.noEstimate);
+  if (o.supportPatch) filter->SupportPatchOn();
   filter->SetPatchColumns(o.patchColumns);
   filter->SetNumberOfThreads(o.threads);
   if (o.columns.empty()) return;
@@ -108,7 +144,24 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   filter->SetColumnNodes(nodes);
 }
 
+/// The method as asked for, or one that chooses by tolerance.
+vtkSmartPointer<vtkBoundaryElementGreensFunctions> method(const Options& o) {
+  vtkSmartPointer<vtkBoundaryElementGreensFunctions> filter;
+  if (o.tolerance > 0) {
+    auto chooser = vtkSmartPointer<vtkToleranceGreensFunctions>::New();
+    chooser->SetErrorTolerance(o.tolerance);
+    chooser->SetMaximumNumberOfLevels(o.levels);
+    chooser->SetMaximumNumberOfVertices(o.vertices);
+    filter = chooser;
+  } else {
+    filter = vtkSmartPointer<vtkBoundaryElementGreensFunctions>::New();
+  }
+  setMethod(filter, o);
+  return filter;
+}
+
 void printModel(vtkPolyData* model) {
+  for (const std::string& step : fieldStrings(model, "ToleranceSteps")) printRow("tried", step);
   vtkDataArray* nodes = model->GetFieldData()->GetArray("GreensFunctionNodes");
   printRow("vertices", std::to_string(model->GetNumberOfPoints()));
   printRow("Green's functions", std::to_string(nodes->GetNumberOfTuples()));
@@ -117,6 +170,7 @@ void printModel(vtkPolyData* model) {
   for (std::size_t i = 0; i < stages.size(); ++i)
     printRow("seconds to " + stages[i], number(seconds->GetComponent(i, 0), 3));
   printRow("condition number", number(fieldNumber(model, "ConditionEstimate", -1), 3));
+  printErrors(model);
   printRow("reciprocity defect", number(fieldNumber(model, "ReciprocityDefect", -1), 3));
   printRow("integration defect", number(fieldNumber(model, "RotationDefect", -1), 3));
   printRow("solver residual", number(fieldNumber(model, "SolverResidual", -1), 3));
@@ -130,16 +184,18 @@ void addPrecompute(CLI::App& program) {
       "precompute", "Compute the Green's functions of an elastic body from its surface");
   addOptions(*command, *options);
   command->footer(
-      "The reciprocity defect indicates the discretisation error; refine the surface to lower it.\n"
+      "The estimated error is of displacements under forces spread over a fifth of the surface's "
+      "size\n"
+      "(info says how far), for twelve places; refine the surface to lower it, or give "
+      "--tolerance.\n"
       "  palpate precompute part.stl part.vtp --young 2e9 --poisson 0.35 \\\n"
       "      --fix-half-space 0 0 0.001  0 0 1");
   command->callback([options] {
     vtkNew<vtkReferenceBoundaryConditions> conditions;
     conditions->SetInputData(readSurface(options->input));
     setSupport(conditions, *options);
-    vtkNew<vtkBoundaryElementGreensFunctions> bem;
+    const auto bem = method(*options);
     bem->SetInputData(run(conditions));
-    setMethod(bem, *options);
     const auto model = run(bem);
     writeSurface(model, options->output);
     printModel(model);

@@ -143,6 +143,22 @@ std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name) {
   return value;
 }
 
+void printErrors(vtkPolyData* model) {
+  const double error = fieldNumber(model, "ErrorEstimate", -1);
+  if (error < 0) return;
+  const auto percent = [&](const char* name) {
+    return number(100 * fieldNumber(model, name, -1), 3) + " %";
+  };
+  printRow("estimated error", percent("ErrorEstimate"));
+  printRow("  of contact compliances", percent("ContactErrorEstimate"));
+  printRow("  at most, 95 % of loads", percent("MostErrorEstimate"));
+  printRow("  loads spread over", number(fieldNumber(model, "ErrorLoadLength", -1), 3));
+  printRow("  by mesh", percent("DiscretizationError"));
+  printRow("  by integrals", percent("IntegrationError"));
+  printRow("  by solver", percent("SolverError"));
+  printRow("  by storage", percent("StorageError"));
+}
+
 void printWarnings(vtkPolyData* surface) {
   for (const std::string& warning : fieldStrings(surface, "Warnings"))
     std::cerr << "palpate: warning: " << warning << "\n";

@@ -50,6 +50,9 @@ std::vector<std::string> fieldStrings(vtkPolyData* surface, const char* name);
 /// A three-component field tuple.
 std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name);
 
+/// Prints the errors that a model is estimated to have, if it is, as percents.
+void printErrors(vtkPolyData* model);
+
 /// Prints the warnings that a model carries, on stderr.
 void printWarnings(vtkPolyData* surface);
 

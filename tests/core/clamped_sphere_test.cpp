@@ -13,6 +13,7 @@
 
 #include "contact/pressure_mask.h"
 #include "contact/surface_stiffness.h"
+#include "model/support.h"
 #include "support/problems.h"
 
 namespace palpate::test {
@@ -39,9 +40,7 @@ Eigen::Matrix3d poleCompliance(const Shape& shape, double nu, bool supportPatch)
   const auto fixed =
       fixedWhere(shape, [](const Eigen::Vector3d& x) { return x.z() < kClampHeight + 1e-9; });
   Eigen::VectorXi patches = Eigen::VectorXi::Zero(mesh->triangleCount());
-  for (int f = 0; f < patches.size() && supportPatch; ++f)
-    patches[f] = fixed[mesh->triangles()(0, f)] && fixed[mesh->triangles()(1, f)] &&
-                 fixed[mesh->triangles()(2, f)];
+  if (supportPatch) patches = splitAtSupport(*mesh, BoundaryConditions(fixed), patches);
   const ElasticModel model(mesh, Material(1, nu), BoundaryConditions(fixed), patches);
   const PressureMasks masks(*mesh, model.conditions(), MaskShape::Linear, kMaskRadius);
   const VertexMask mask = masks.at(0);

@@ -264,7 +264,7 @@ class Failures(Program):
         output = self.folder / "model.vtp"
         self.run_badly("Poisson's ratio", "precompute", KIDNEY, output, "--poisson", 0.7)
         self.run_badly("Young's modulus", "precompute", KIDNEY, output, "--young", -1)
-        self.run_badly("tolerance", "precompute", KIDNEY, output, "--tolerance", 2)
+        self.run_badly("tolerance", "precompute", KIDNEY, output, "--integration-tolerance", 2)
         self.run_badly("rigid motion", "precompute", KIDNEY, output, "--fix-sphere", 9, 9, 9, 0.1)
         self.run_badly("palpate precompute", "stiffness", KIDNEY, output)
         model = self.model()

@@ -98,7 +98,7 @@ class Precompute(unittest.TestCase):
     def test_a_finer_tolerance_integrates_more_exactly(self):
         surface = sphere(1)
         defect = [palpate.array(palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface),
-                                                   tolerance=tolerance), "RotationDefect")[0]
+                                                   integration_tolerance=tolerance), "RotationDefect")[0]
                   for tolerance in (1e-3, 1e-6, 1e-10)]
         self.assertGreater(defect[0], 10 * defect[1])
         self.assertGreater(defect[1], 10 * defect[2])

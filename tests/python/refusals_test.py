@@ -166,6 +166,7 @@ class Problems(Refusals):
     def test_tolerances_out_of_range_are_named(self):
         for tolerance in (-1e-3, 1, np.nan):
             self.precompute_refused("tolerance", sphere(1), tolerance=tolerance)
+            self.precompute_refused("tolerance", sphere(1), integration_tolerance=tolerance)
 
     def test_smooth_angles_out_of_range_are_named(self):
         for angle in (-1, 181, np.nan):
@@ -224,6 +225,8 @@ class Arguments(Refusals):
         self.precompute_refused("reciprocal must be ", sphere(1), reciprocal=array)
         for wrong in (array, 10**400, [1, 2]):
             self.precompute_refused("tolerance must be a number", sphere(1), tolerance=wrong)
+            self.precompute_refused("integration_tolerance must be a number", sphere(1),
+                                    integration_tolerance=wrong)
             self.refused("rigid_stiffness must be a number", palpate.stiffness, sphere_model(1),
                          rigid_stiffness=wrong)
 

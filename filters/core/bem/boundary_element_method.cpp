@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "bem/body_surface.h"
+#include "bem/error_estimate.h"
 #include "bem/exchanged_system.h"
 #include "greens/reciprocity.h"
 #include "linear_algebra/dense_lu.h"
@@ -25,6 +26,7 @@ using bem::BodySurface;
 using bem::CollocationScheme;
 
 constexpr double kAssembleShare = 0.1;  // of the time, for the progress display
+constexpr double kEstimateShare = 0.1;
 
 class Stopwatch {
  public:
@@ -299,6 +301,14 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
 
 }  // namespace
 
+std::shared_ptr<const GreensFunctions> BoundaryElementResult::view() const {
+  if (floatMatrix.size() > 0)
+    return std::make_shared<DenseGreensFunctions<float>>(info, floatMatrix.data(),
+                                                         floatPatchMatrix.data(), nullptr);
+  return std::make_shared<DenseGreensFunctions<double>>(info, matrix.data(), patchMatrix.data(),
+                                                        nullptr);
+}
+
 std::shared_ptr<const GreensFunctions> BoundaryElementResult::take() {
   if (floatMatrix.size() > 0)
     return std::make_shared<DenseGreensFunctions<float>>(std::move(info), std::move(floatMatrix),
@@ -328,12 +338,19 @@ BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& 
   requireDeterminedPressure(model, info.columnNodes);
 
   const Progress whole(progress);
+  const Progress own = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
   if (options.precision == Precision::Float) {
-    result.floatMatrix = Precomputation<float>(model, options, info, whole).run();
+    result.floatMatrix = Precomputation<float>(model, options, info, own).run();
     finish(result.floatMatrix, result.floatPatchMatrix, model, options, info);
   } else {
-    result.matrix = Precomputation<double>(model, options, info, whole).run();
+    result.matrix = Precomputation<double>(model, options, info, own).run();
     finish(result.matrix, result.patchMatrix, model, options, info);
+  }
+  if (options.estimateError) {
+    Stopwatch watch;
+    info.diagnostics.error =
+        estimateError(model, options, *result.view(), whole.part(1 - kEstimateShare, 1));
+    addSeconds(info.diagnostics, "estimate", watch.seconds());
   }
   whole.report(1, "done");
   return result;

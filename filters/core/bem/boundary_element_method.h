@@ -33,6 +33,8 @@ struct BoundaryElementOptions {
   bool patchColumns = false;
   /// Symmetrise the force compliance between free nodes (exact Green's functions are reciprocal).
   bool reciprocal = true;
+  /// Also estimate the error on another mesh of the model (see estimateError).
+  bool estimateError = false;
   int threads = 0;  ///< 0 for all cores
 };
 
@@ -42,7 +44,9 @@ struct BoundaryElementResult {
   AlignedBuffer<double> matrix, patchMatrix;  ///< 3 #V by 3 #columns, by 3 #patch columns
   AlignedBuffer<float> floatMatrix, floatPatchMatrix;
 
-  /// As the interface that consumers use. Leaves this empty.
+  /// As the interface that consumers use, while this lives and stays as it is.
+  std::shared_ptr<const GreensFunctions> view() const;
+  /// The same for good. Leaves this empty.
   std::shared_ptr<const GreensFunctions> take();
 };
 

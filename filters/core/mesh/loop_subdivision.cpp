@@ -3,7 +3,6 @@
 
 #include "mesh/loop_subdivision.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
 
 #include <algorithm>
@@ -11,28 +10,13 @@
 #include <map>
 
 #include "mesh/mesh_defects.h"
+#include "mesh/open_mesh_surface.h"
 
 namespace palpate {
 namespace {
 
-struct DoubleTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-};
-using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
-
-Mesh toOpenMesh(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
-  Mesh mesh;
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    mesh.add_vertex({points(0, v), points(1, v), points(2, v)});
-  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
-    mesh.add_face(mesh.vertex_handle(triangles(0, f)), mesh.vertex_handle(triangles(1, f)),
-                  mesh.vertex_handle(triangles(2, f)));
-  return mesh;
-}
-
 /// A new vertex has just two old neighbours: the ends of its edge.
-Eigen::Matrix2Xi findParents(const Mesh& mesh, int oldCount) {
+Eigen::Matrix2Xi findParents(const OpenMeshSurface& mesh, int oldCount) {
   Eigen::Matrix2Xi parents(2, mesh.n_vertices());
   for (const auto v : mesh.vertices()) {
     parents.col(v.idx()).setConstant(v.idx());
@@ -70,8 +54,8 @@ std::vector<int> findParentTriangles(const LoopLevel& level, const Eigen::Matrix
 
 LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
   requireNoDefect(findMeshDefects(points, triangles, 1));
-  Mesh mesh = toOpenMesh(points, triangles);
-  OpenMesh::Subdivider::Uniform::LoopT<Mesh, double> loop;
+  OpenMeshSurface mesh = toOpenMesh(points, triangles);
+  OpenMesh::Subdivider::Uniform::LoopT<OpenMeshSurface, double> loop;
   loop.attach(mesh);
   loop(1);
   loop.detach();

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "mesh/coarsening.h"
 #include "mesh/loop_subdivision.h"
 
 namespace palpate {
@@ -12,6 +13,11 @@ namespace palpate {
 LoopLevel subdivideLoop(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&) {
   throw std::runtime_error(
       "refinement needs OpenMesh, which this build of Palpate was made without");
+}
+
+CoarsenedSurface coarsen(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
+                         const std::vector<unsigned char>&, const Eigen::VectorXi&, int) {
+  throw std::runtime_error("coarsening needs OpenMesh, which this build of Palpate was made without");
 }
 
 }  // namespace palpate

@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -141,6 +142,18 @@ double supportWidthInEdges(const SurfaceMesh& mesh, const BoundaryConditions& co
   for (double width : widest)
     if (width >= 0) smallest = std::min(smallest, width);
   return smallest;
+}
+
+Eigen::VectorXi splitAtSupport(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                               const Eigen::VectorXi& smoothPatches) {
+  std::map<std::pair<int, bool>, int> numbers;
+  Eigen::VectorXi patches(mesh.triangleCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    bool isSupport = true;
+    for (int v : mesh.triangles().col(f)) isSupport = isSupport && conditions.isFixed(v);
+    patches[f] = numbers.try_emplace({smoothPatches[f], isSupport}, numbers.size()).first->second;
+  }
+  return patches;
 }
 
 }  // namespace palpate

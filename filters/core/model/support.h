@@ -42,4 +42,11 @@ void requireSupport(const SurfaceMesh& mesh, const BoundaryConditions& condition
 /// @return the smallest over the bodies that have fixed nodes; infinity if none has.
 double supportWidthInEdges(const SurfaceMesh& mesh, const BoundaryConditions& conditions);
 
+/// Splits smooth patches at the rim of the support, the triangles with three fixed corners, so that
+/// its traction ends there and not half an edge beyond.
+/// @param smoothPatches  #F.
+/// @return #F patch numbers, counted from 0.
+Eigen::VectorXi splitAtSupport(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                               const Eigen::VectorXi& smoothPatches);
+
 }  // namespace palpate

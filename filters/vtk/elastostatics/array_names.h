@@ -69,6 +69,17 @@ constexpr const char* IntegrationTolerance = "IntegrationTolerance";
 constexpr const char* WallRatio = "WallRatio";
 constexpr const char* SupportWidth = "SupportWidth";
 constexpr const char* RockingCompliance = "RockingCompliance"; // rad/(N m)
+// Estimated relative errors (see palpate::ErrorEstimate): all causes; of contact compliances; what 95 %
+// of the loads do not exceed in either; by cause; and the length that loads are spread over.
+constexpr const char* ErrorEstimate = "ErrorEstimate";
+constexpr const char* ContactErrorEstimate = "ContactErrorEstimate";
+constexpr const char* MostErrorEstimate = "MostErrorEstimate";
+constexpr const char* DiscretizationError = "DiscretizationError";
+constexpr const char* IntegrationError = "IntegrationError";
+constexpr const char* SolverError = "SolverError";
+constexpr const char* StorageError = "StorageError";
+constexpr const char* ErrorLoadLength = "ErrorLoadLength"; // m
+constexpr const char* ToleranceSteps = "ToleranceSteps";   // strings, of vtkToleranceGreensFunctions
 constexpr const char* PeakBytes = "PeakBytes";
 constexpr const char* StageSeconds = "StageSeconds"; // one tuple a stage
 constexpr const char* StageNames = "StageNames";     // strings
@@ -102,7 +113,9 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   PatchGreensFunctions, PatchGreensFunctionNodes, GreensFunctionYoungsModulus, GreensFunctionSource,
   GreensFunctionDomain, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
-  RockingCompliance, PeakBytes, StageSeconds, StageNames, Warnings };
+  RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
+  IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,
+  StageNames, Warnings };
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
   ContactRotation, ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };

@@ -8,6 +8,7 @@
 #include "greens/dense_greens_functions.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/smooth_patches.h"
+#include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -15,7 +16,6 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -29,27 +29,6 @@ namespace palpate::convert
 {
 namespace
 {
-/// The SmoothPatch array, or an empty vector.
-Eigen::VectorXi storedPatches(vtkPolyData* surface)
-{
-  vtkDataArray* array = surface->GetCellData()->GetArray(arrays::SmoothPatch);
-  if (!array)
-  {
-    return {};
-  }
-  if (array->GetNumberOfTuples() != surface->GetNumberOfCells() ||
-    array->GetNumberOfComponents() != 1)
-  {
-    throw std::invalid_argument(
-      std::string("the cell array '") + arrays::SmoothPatch + "' must hold a number a cell");
-  }
-  Eigen::VectorXi patches(array->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < patches.size(); ++i)
-  {
-    patches[i] = wholeNumber(array->GetComponent(i, 0), "the smooth patch of triangle ", i);
-  }
-  return patches;
-}
 
 Material materialOf(vtkPolyData* surface)
 {
@@ -107,6 +86,14 @@ void addDiagnostics(vtkPolyData* surface, const Diagnostics& d)
   setFieldNumber(surface, arrays::WallRatio, d.wallRatio);
   setFieldNumber(surface, arrays::SupportWidth, d.supportWidth);
   setFieldNumber(surface, arrays::RockingCompliance, d.rockingCompliance);
+  setFieldNumber(surface, arrays::ErrorEstimate, d.error.total());
+  setFieldNumber(surface, arrays::ContactErrorEstimate, d.error.contactTotal());
+  setFieldNumber(surface, arrays::MostErrorEstimate, d.error.most());
+  setFieldNumber(surface, arrays::DiscretizationError, d.error.discretization);
+  setFieldNumber(surface, arrays::IntegrationError, d.error.integration);
+  setFieldNumber(surface, arrays::SolverError, d.error.solver);
+  setFieldNumber(surface, arrays::StorageError, d.error.storage);
+  setFieldNumber(surface, arrays::ErrorLoadLength, d.error.loadLength);
   setFieldNumber(surface, arrays::PeakBytes, static_cast<double>(d.peakBytes));
   std::vector<std::string> names;
   vtkNew<vtkDoubleArray> seconds;
@@ -261,17 +248,6 @@ std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface)
   return mesh;
 }
 
-bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh)
-{
-  const Eigen::VectorXi stored = storedPatches(surface);
-  if (stored.size() == 0 || !hasField(surface, arrays::SmoothAngle))
-  {
-    return stored.size() > 0;
-  }
-  const double angle = fieldNumber(surface, arrays::SmoothAngle, "compute the patches again");
-  return !(angle >= 0 && angle <= 180) || stored != findSmoothPatches(mesh, angle);
-}
-
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 {
   const auto mesh = soundMeshOf(surface);
@@ -320,13 +296,7 @@ void setGreensFunctions(
 
   setBoundaryTypes(surface, model.conditions().types());
   setPointNumbers(surface, arrays::VertexArea, info.vertexAreas);
-  vtkNew<vtkIntArray> patches;
-  patches->SetName(arrays::SmoothPatch);
-  for (int patch : model.smoothPatches())
-  {
-    patches->InsertNextValue(patch);
-  }
-  surface->GetCellData()->AddArray(patches);
+  setSmoothPatches(surface, model.smoothPatches());
 }
 
 void shareGreensFunctions(vtkPolyData* from, vtkPolyData* surface, double youngsModulus)

@@ -23,11 +23,6 @@ std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface);
 /// @param smoothAngle  for smooth patches where the surface carries no SmoothPatch array.
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain);
 
-/// Whether the surface's SmoothPatch array was given, and not found by an earlier computation: what that
-/// computation's SmoothAngle finds on the surface is not what the array holds.
-/// @param mesh  of the surface.
-bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh);
-
 /// Adds Green's functions with their provenance and diagnostics. Takes over their memory.
 void setGreensFunctions(vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result);
 

@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "model_arrays.h"
+#include "smooth_patch_arrays.h"
 
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -38,6 +39,8 @@ void vtkBoundaryElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Domain: " << this->Domain << "\n"
      << indent << "Tolerance: " << this->Tolerance << "\n"
      << indent << "SmoothAngle: " << this->SmoothAngle << "\n"
+     << indent << "SupportPatch: " << this->SupportPatch << "\n"
+     << indent << "EstimateError: " << this->EstimateError << "\n"
      << indent << "Reciprocal: " << this->Reciprocal << "\n"
      << indent << "PatchColumns: " << this->PatchColumns << "\n"
      << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
@@ -68,7 +71,13 @@ void vtkBoundaryElementGreensFunctions::Compute(
 {
   namespace arrays = palpate::arrays;
   namespace convert = palpate::convert;
-  const palpate::ElasticModel model = convert::modelOf(input, this->SmoothAngle,
+  vtkNew<vtkPolyData> posed;
+  posed->ShallowCopy(input);
+  if (this->SupportPatch)
+  {
+    convert::splitPatchesAtSupport(posed, this->SmoothAngle);
+  }
+  const palpate::ElasticModel model = convert::modelOf(posed, this->SmoothAngle,
     this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
   const vtkMTimeType time = this->GetMTime();
   if (!this->Kept || this->Kept->Fingerprint != model.fingerprint() || this->Kept->Time != time)
@@ -83,7 +92,7 @@ void vtkBoundaryElementGreensFunctions::Compute(
   }
   convert::removeResponses(output);
   convert::shareGreensFunctions(this->Kept->Arrays, output, model.material().youngsModulus());
-  if (convert::hasGivenPatches(input, model.mesh()))
+  if (convert::hasGivenPatches(posed, model.mesh()))
   {
     output->GetFieldData()->RemoveArray(arrays::SmoothAngle);
   }
@@ -102,6 +111,7 @@ palpate::BoundaryElementOptions vtkBoundaryElementGreensFunctions::OptionsFor(
     this->Collocation == VERTEX ? palpate::Collocation::Vertex : palpate::Collocation::Averaged;
   options.tolerance = this->Tolerance;
   options.reciprocal = this->Reciprocal;
+  options.estimateError = this->EstimateError;
   options.patchColumns = this->PatchColumns;
   options.threads = this->NumberOfThreads;
   for (vtkIdType i = 0; this->ColumnNodes && i < this->ColumnNodes->GetNumberOfValues(); ++i)

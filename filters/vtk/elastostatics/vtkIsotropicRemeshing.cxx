@@ -9,10 +9,10 @@
 #include "mesh/smooth_patches.h"
 #include "mesh/surface_mesh.h"
 #include "model_arrays.h"
+#include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -35,16 +35,6 @@ void vtkIsotropicRemeshing::PrintSelf(ostream& os, vtkIndent indent)
 
 namespace
 {
-Eigen::VectorXi givenPatches(vtkPolyData* surface)
-{
-  vtkDataArray* array = surface->GetCellData()->GetArray(arrays::SmoothPatch);
-  Eigen::VectorXi patches(surface->GetNumberOfCells());
-  for (vtkIdType f = 0; f < surface->GetNumberOfCells(); ++f)
-  {
-    patches[f] = convert::wholeNumber(array->GetComponent(f, 0), "the smooth patch of triangle", f);
-  }
-  return patches;
-}
 } // namespace
 
 void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
@@ -54,7 +44,7 @@ void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtk
   const bool hasPatches =
     input->GetCellData()->HasArray(arrays::SmoothPatch) && convert::hasGivenPatches(input, mesh);
   const Eigen::VectorXi patches =
-    hasPatches ? givenPatches(input) : palpate::findSmoothPatches(mesh, this->SmoothAngle);
+    hasPatches ? convert::storedPatches(input) : palpate::findSmoothPatches(mesh, this->SmoothAngle);
   const palpate::RemeshedSurface remeshed = palpate::remeshIsotropic(mesh.points(), mesh.triangles(),
     convert::boundaryTypesOf(input, true), patches,
     this->EdgeLength != 0 ? this->EdgeLength : mesh.meanEdgeLength(), this->NumberOfIterations,
@@ -71,12 +61,6 @@ void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtk
   }
   if (hasPatches)
   {
-    vtkNew<vtkIntArray> array;
-    array->SetName(arrays::SmoothPatch);
-    for (int patch : remeshed.smoothPatches)
-    {
-      array->InsertNextValue(patch);
-    }
-    output->GetCellData()->AddArray(array);
+    convert::setSmoothPatches(output, remeshed.smoothPatches);
   }
 }

@@ -7,6 +7,7 @@
 #include "conversion.h"
 #include "mesh/loop_subdivision.h"
 #include "model_arrays.h"
+#include "smooth_patch_arrays.h"
 #include "progress.h"
 
 #include "vtkCellData.h"

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef smooth_patch_arrays_h
+#define smooth_patch_arrays_h
+
+#include <Eigen/Core>
+
+class vtkPolyData;
+
+namespace palpate
+{
+class SurfaceMesh;
+}
+
+namespace palpate::convert
+{
+/// #F, the SmoothPatch array, or an empty vector.
+/// @throws std::invalid_argument if it does not hold a whole number a triangle.
+Eigen::VectorXi storedPatches(vtkPolyData* surface);
+
+/// @param patches  #F.
+void setSmoothPatches(vtkPolyData* surface, const Eigen::VectorXi& patches);
+
+/// Whether the surface's SmoothPatch array was given, and not found by an earlier computation: what that
+/// computation's SmoothAngle finds on the surface is not what the array holds.
+/// @param mesh  of the surface.
+bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh);
+
+/// Gives a surface smooth patches that end at the rim of its support (splitAtSupport).
+/// @param surface  with boundary types; a shallow copy, as its cell and field data change.
+void splitPatchesAtSupport(vtkPolyData* surface, double smoothAngle);
+} // namespace palpate::convert
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/**
+ * @class vtkToleranceGreensFunctions
+ * @brief Green's functions that are as accurate as asked for, at the least cost
+ *
+ * Takes what vtkBoundaryElementGreensFunctions takes and chooses the rest: whether the surface is
+ * refined, and how often (vtkLoopRefinement); the tolerance of the integrals; single or double precision.
+ * Levels are computed from the coarsest on, until the estimated error of displacements and contact
+ * compliances, as 95 % of the loads do not exceed it, is at most ErrorTolerance
+ * (palpate::computeToTolerance). The support gets smooth patches of its own (SupportPatch is on).
+ * The output is the surface of the level that was chosen with its Green's functions, and its field
+ * array `ToleranceSteps` says what was tried. A tolerance that is out of reach is refused with the error
+ * that can be reached.
+ *
+ * Tolerance and Precision are chosen here; ColumnNodes are refused, as levels have other vertices.
+ */
+
+#ifndef vtkToleranceGreensFunctions_h
+#define vtkToleranceGreensFunctions_h
+
+#include "vtkBoundaryElementGreensFunctions.h"
+
+class PALPATEELASTOSTATICS_EXPORT vtkToleranceGreensFunctions
+  : public vtkBoundaryElementGreensFunctions
+{
+public:
+  static vtkToleranceGreensFunctions* New();
+  vtkTypeMacro(vtkToleranceGreensFunctions, vtkBoundaryElementGreensFunctions);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The largest relative error, above 0 and below 1. Default 0.1.
+   */
+  vtkSetMacro(ErrorTolerance, double);
+  vtkGetMacro(ErrorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How often the surface may be refined; 0 to keep it as it is. Default 4.
+   */
+  vtkSetClampMacro(MaximumNumberOfLevels, int, 0, 9);
+  vtkGetMacro(MaximumNumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many vertices a refined surface may have. Default 3000, about a minute on two cores.
+   */
+  vtkSetClampMacro(MaximumNumberOfVertices, int, 4, 100000);
+  vtkGetMacro(MaximumNumberOfVertices, int);
+  ///@}
+
+protected:
+  vtkToleranceGreensFunctions();
+  ~vtkToleranceGreensFunctions() override = default;
+  void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
+
+private:
+  vtkToleranceGreensFunctions(const vtkToleranceGreensFunctions&) = delete;
+  void operator=(const vtkToleranceGreensFunctions&) = delete;
+
+  double ErrorTolerance = 0.1;
+  int MaximumNumberOfLevels = 4;
+  int MaximumNumberOfVertices = 3000;
+};
+
+#endif
