@@ -3,33 +3,40 @@
 
 #include "bem/error_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "mesh/coarsening.h"
 #include "mesh/curved_refinement.h"
+#include "model/support.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kBluntOrder = 1, kSharpOrder = 1.25, kSmoothOrder = 1.5;
-constexpr int kLeastVertices = 35;
+constexpr double kSupportedOrder = 1.25, kSquareOrder = 2;
+constexpr double kLockingRatio = 0.25;  // of edges to walls, half of that of the coarser mesh
+constexpr int kLeastVertices = 50, kLeastOfThird = 30;
 constexpr int kMostRefined = 400;        // vertices of a model that is refined for its estimate
-constexpr double kQuadratureShare = 10;  // errors of answers over that of integrated rotations
+constexpr double kQuadratureShare = 30;  // errors of answers over that of integrated rotations
 
-/// Whether hats of the support's traction reach beyond it: its triangles share a smooth patch.
+/// The same with a support whose traction ends at its rim.
+ElasticModel withSupportPatch(const ElasticModel& model) {
+  return ElasticModel(
+      std::make_shared<SurfaceMesh>(model.mesh()), model.material(), model.conditions(),
+      splitAtSupport(model.mesh(), model.conditions(), model.smoothPatches()), model.domain());
+}
+
+int patchCount(const Eigen::VectorXi& patches) {
+  return static_cast<int>(std::set<int>(patches.begin(), patches.end()).size());
+}
+
+/// Whether the support's traction reaches beyond it, as it shares a smooth patch.
 bool hasBluntSupport(const ElasticModel& model) {
-  const SurfaceMesh& mesh = model.mesh();
-  std::vector<bool> holds(model.smoothPatches().maxCoeff() + 1), gives(holds.size());
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    bool isSupport = true;
-    for (int v : mesh.triangles().col(f)) isSupport = isSupport && model.conditions().isFixed(v);
-    (isSupport ? holds : gives)[model.smoothPatches()[f]] = true;
-  }
-  for (std::size_t patch = 0; patch < holds.size(); ++patch)
-    if (holds[patch] && gives[patch]) return true;
-  return false;
+  return patchCount(splitAtSupport(model.mesh(), model.conditions(), model.smoothPatches())) >
+         patchCount(model.smoothPatches());
 }
 
 template <class Surface>
@@ -64,52 +71,72 @@ std::shared_ptr<const GreensFunctions> solve(const ElasticModel& model,
       .take();
 }
 
+std::vector<int> firstVertices(const SurfaceMesh& mesh) {
+  std::vector<int> vertices(mesh.vertexCount());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return vertices;
+}
+
+ProbeLoads loadsOf(const ElasticModel& model) {
+  return chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
+}
+
 void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
                        const BoundaryElementOptions& options, const GreensFunctions& greens,
                        const Progress& progress, ErrorEstimate& estimate) {
-  const double order = discretizationOrder(model), gain = std::pow(coarser.ratio, order);
-  const auto coarse = solve(coarser.model, options, progress.part(0, 0.8));
-  ProbeLoads loads =
-      chooseProbeLoads(coarser.model.mesh(), coarser.model.conditions(), kErrorLoads);
-  setDiscretization(compareUnderLoads(greens, model.mesh(), *coarse, coarser.model.mesh(),
-                                      coarser.vertices, loads),
-                    1 / (gain - 1), loads.length, estimate);
-  if (estimate.discretization >= 0) return;
-  const auto third = coarsenedModel(coarser.model);
-  if (!third) return;
-  const auto coarsest = solve(third->model, options, progress.part(0.8, 1));
-  loads = chooseProbeLoads(third->model.mesh(), third->model.conditions(), kErrorLoads);
-  setDiscretization(compareUnderLoads(*coarse, coarser.model.mesh(), *coarsest, third->model.mesh(),
-                                      third->vertices, loads),
-                    1 / (std::pow(third->ratio, order) - 1) / gain, loads.length, estimate);
+  const double order = discretizationOrder(greens), gain = std::pow(coarser.ratio, order);
+  const auto coarse = solve(coarser.model, options, progress.part(0, 0.5));
+  const SurfaceMesh& mesh = coarser.model.mesh();
+  ProbeLoads loads = loadsOf(coarser.model);
+  const LoadDifferences differences =
+      compareUnderLoads(greens, model.mesh(), *coarse, mesh, coarser.vertices, loads);
+  if (!differences.field.empty()) {
+    addDiscretization(differences, 1 / (gain - 1), loads.length, estimate);
+  } else if (const auto third = coarsenedModel(coarser.model, kLeastOfThird)) {
+    const auto coarsest = solve(third->model, options, progress.part(0.8, 1));
+    const double factor = 1 / (std::pow(third->ratio, order) - 1) / gain;
+    loads = loadsOf(third->model);
+    addDiscretization(
+        compareUnderLoads(*coarse, mesh, *coarsest, third->model.mesh(), third->vertices, loads),
+        factor, loads.length, estimate);
+  }
+  if (estimate.discretization < 0 || !hasBluntSupport(model)) return;
+  const auto sharp = solve(withSupportPatch(coarser.model), options, progress.part(0.5, 0.8));
+  addDiscretization(compareUnderLoads(*sharp, mesh, *coarse, mesh, firstVertices(mesh), loads),
+                    1 / coarser.ratio, loads.length, estimate);
 }
 
 void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
                      const BoundaryElementOptions& options, const GreensFunctions& greens,
                      const Progress& progress, ErrorEstimate& estimate) {
-  const double gain = std::pow(finer.ratio, discretizationOrder(model));
-  const auto fine = solve(finer.model, options, progress);
-  const ProbeLoads loads = chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
-  setDiscretization(
+  const bool isBlunt = hasBluntSupport(model);
+  const auto fine = solve(isBlunt ? withSupportPatch(finer.model) : finer.model, options, progress);
+  const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
+  const ProbeLoads loads = loadsOf(model);
+  addDiscretization(
       compareUnderLoads(*fine, finer.model.mesh(), greens, model.mesh(), finer.vertices, loads),
-      gain / (gain - 1), loads.length, estimate);
+      isBlunt ? 1 : gain / (gain - 1), loads.length, estimate);
 }
 
 }  // namespace
 
-void setDiscretization(const LoadDifferences& differences, double factor, double length,
+void addDiscretization(const LoadDifferences& differences, double factor, double length,
                        ErrorEstimate& estimate) {
   if (differences.field.empty()) return;
   estimate.loadLength = length;
-  estimate.discretization = factor * LoadDifferences::mean(differences.field);
-  estimate.contact = factor * LoadDifferences::mean(differences.contact);
-  estimate.mostDiscretization = factor * LoadDifferences::most(differences.field);
-  estimate.mostContact = factor * LoadDifferences::most(differences.contact);
+  const auto add = [factor](double difference, double& error) {
+    error = std::max(error, 0.0) + factor * difference;
+  };
+  add(LoadDifferences::mean(differences.field), estimate.discretization);
+  add(LoadDifferences::mean(differences.contact), estimate.contact);
+  add(LoadDifferences::most(differences.field), estimate.mostDiscretization);
+  add(LoadDifferences::most(differences.contact), estimate.mostContact);
 }
 
-double discretizationOrder(const ElasticModel& model) {
-  if (model.conditions().fixedNodes().empty()) return kSmoothOrder;
-  return hasBluntSupport(model) ? kBluntOrder : kSharpOrder;
+double discretizationOrder(const GreensFunctions& finer) {
+  const GreensFunctionsInfo& info = finer.info();
+  const bool locks = info.diagnostics.wallRatio > kLockingRatio;
+  return locks || info.conditions.fixedNodes().empty() ? kSquareOrder : kSupportedOrder;
 }
 
 ErrorEstimate otherErrors(const GreensFunctions& greens) {
@@ -122,16 +149,14 @@ ErrorEstimate otherErrors(const GreensFunctions& greens) {
 }
 
 std::optional<OtherMesh> refinedModel(const ElasticModel& model) {
-  std::vector<int> vertices(model.mesh().vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0);
   return otherMesh(model,
                    refineCurved(model.mesh(), model.conditions().types(), model.smoothPatches()),
-                   std::move(vertices));
+                   firstVertices(model.mesh()));
 }
 
-std::optional<OtherMesh> coarsenedModel(const ElasticModel& model) {
+std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVertices) {
   const int count = model.mesh().vertexCount();
-  if (count < 4 * kLeastVertices) return std::nullopt;
+  if (count < 4 * leastVertices) return std::nullopt;
   CoarsenedSurface surface = coarsen(model.mesh().points(), model.mesh().triangles(),
                                      model.conditions().types(), model.smoothPatches(), count / 4);
   if (surface.points.cols() > count / 2) return std::nullopt;
@@ -143,7 +168,7 @@ ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOpti
                             const GreensFunctions& greens, const Progress& progress) {
   ErrorEstimate estimate = otherErrors(greens);
   try {
-    if (const auto coarser = coarsenedModel(model))
+    if (const auto coarser = coarsenedModel(model, kLeastVertices))
       estimateByCoarser(model, *coarser, options, greens, progress, estimate);
     if (estimate.discretization >= 0 || model.mesh().vertexCount() > kMostRefined) return estimate;
     if (const auto finer = refinedModel(model))

@@ -25,22 +25,25 @@ struct OtherMesh {
 std::optional<OtherMesh> refinedModel(const ElasticModel& model);
 
 /// A mesh of a quarter of the model's vertices (coarsen); none where rims and corners leave more
-/// than half of them, fewer than 35 remain, or the support would no longer hold the body.
-std::optional<OtherMesh> coarsenedModel(const ElasticModel& model);
+/// than half of them, there are fewer than four times `leastVertices`, or the support would no
+/// longer hold the body.
+std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVertices);
 
 /// How wrong the answers of Green's functions are, by hierarchy: the model is solved on a coarser
 /// mesh too, or on a finer one if it is small or cannot be coarsened. Between meshes of edge ratio
-/// r answers differ by (r^q - 1) times the error of the finer for an order q: 1 where the support
-/// shares a smooth patch with the free surface, as its traction then reaches half an edge beyond
-/// it; 5/4 for other supports, on whose rims stresses are singular; 3/2 without any. True orders
-/// from .75 to 2 leave the estimate within a factor of 2 or so. Where columns are missing that the
-/// loads need, the error is that of the coarser mesh by a third one, continued with the same order.
+/// r answers differ by (r^q - 1) times the error of the finer for an order q: 5/4 with a support,
+/// on whose rim stresses are singular; 2 without, and where walls are so thin for the coarser mesh
+/// that bending locks, which goes with the square of the edges. Where the support shares a smooth
+/// patch with the free surface, its traction also reaches half an edge beyond it; what that does is
+/// the difference from a support with a patch of its own, in proportion to the edges. Where columns
+/// are missing that the loads need, the error is that of the coarser mesh by a third one, continued
+/// with the order.
 /// @param options  that the Green's functions were made with.
 ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOptions& options,
                             const GreensFunctions& greens, const Progress& progress = {});
 
-/// The order q of a model on its own.
-double discretizationOrder(const ElasticModel& model);
+/// The order q between a mesh and one of twice its edges.
+double discretizationOrder(const GreensFunctions& finer);
 
 /// What of an estimate one mesh tells: all but the discretisation's error.
 ErrorEstimate otherErrors(const GreensFunctions& greens);
@@ -48,9 +51,9 @@ ErrorEstimate otherErrors(const GreensFunctions& greens);
 /// Loads of an estimate.
 constexpr int kErrorLoads = 12;
 
-/// Sets the discretisation's errors to differences times a factor; leaves them if there are none.
+/// Adds differences times a factor to the discretisation's errors.
 /// @param length  of the loads, m.
-void setDiscretization(const LoadDifferences& differences, double factor, double length,
+void addDiscretization(const LoadDifferences& differences, double factor, double length,
                        ErrorEstimate& estimate);
 
 }  // namespace palpate

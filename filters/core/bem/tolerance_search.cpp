@@ -18,8 +18,9 @@ namespace {
 constexpr double kShareOfOthers = 0.01;  // of the tolerance, for integrals and arithmetic
 constexpr double kFloatTolerance = 1e-3;
 constexpr double kLeastIntegration = 1e-6, kMostIntegration = 1e-3;
-constexpr double kDoubtful = 2;  // predictions may be wrong by this factor
-constexpr int kLevelFactor = 4;  // vertices of a level over those of the level before
+constexpr double kDoubtful = 2;     // predictions may be wrong by this factor
+constexpr int kLeastVertices = 50;  // of a level whose next one is compared with it
+constexpr int kLevelFactor = 4;     // vertices of a level over those of the level before
 
 std::string percent(double share) {
   std::ostringstream text;
@@ -74,7 +75,7 @@ class Search {
       solve(levelModel(k), progress.part(1 - std::pow(4.0, -k), 1 - std::pow(4.0, -k - 1)));
       Level& level = levels_.back();
       ErrorEstimate& estimate = level.result.info.diagnostics.error;
-      if (k > 0) estimate = estimateByLevels();
+      if (estimate.discretization < 0) estimate = estimateByLevels();
       const double error = estimate.most();
       if (error < 0)
         throw std::runtime_error(
@@ -88,7 +89,7 @@ class Search {
 
  private:
   void solve(ElasticModel model, const Progress& progress) {
-    options_.estimateError = levels_.empty();
+    options_.estimateError = levels_.empty() || levels_.back().vertices() < kLeastVertices;
     const ProgressCallback callback = [&](double fraction, const char* stage) {
       progress.report(fraction, stage);
       return true;
@@ -103,13 +104,15 @@ class Search {
     if (levels_.size() > 3) levels_.erase(levels_.begin());
   }
 
+  /// No estimate if there is but one level.
   ErrorEstimate estimateByLevels() {
+    if (levels_.size() < 2) return levels_.back().result.info.diagnostics.error;
     const Level &fine = levels_.back(), &coarse = levels_[levels_.size() - 2];
-    order_ = levels_.size() < 3 ? discretizationOrder(fine.model)
+    order_ = levels_.size() < 3 ? discretizationOrder(*fine.result.view())
                                 : observedOrder(fine, coarse, levels_.front());
     ErrorEstimate estimate = otherErrors(*fine.result.view());
     const ProbeLoads loads = coarse.loads();
-    setDiscretization(differenceOf(fine, coarse, loads),
+    addDiscretization(differenceOf(fine, coarse, loads),
                       1 / (std::pow(edgeRatio(fine, coarse), order_) - 1), loads.length, estimate);
     return estimate;
   }
@@ -131,8 +134,7 @@ class Search {
     for (double next = kLevelFactor * double(vertices);
          level + more < limits_.levels && next <= limits_.vertices; next *= kLevelFactor)
       ++more;
-    const double order = level > 0 ? order_ : discretizationOrder(levels_.back().model);
-    const double reachable = error / std::pow(2.0, order * more);
+    const double reachable = error / std::pow(2.0, order_ * more);
     if (more > 0 && reachable <= kDoubtful * tolerance_) return;
     std::ostringstream text;
     text << "a tolerance of " << percent(tolerance_) << " is out of reach: level " << level
@@ -151,7 +153,7 @@ class Search {
   ToleranceLimits limits_;
   BoundaryElementOptions options_;
   std::vector<Level> levels_;
-  double order_ = 0;
+  double order_ = 1;
   std::vector<std::string> steps_;
 };
 

@@ -21,7 +21,7 @@ using Face = Mesh::FaceHandle;
 using Halfedge = Mesh::HalfedgeHandle;
 using Vector = Mesh::Point;
 
-constexpr double kCorner = 0.5;        // cosine; rims that turn by more than 60 degrees stay
+constexpr double kCorner = -0.2;       // cosine; rims that turn by more than 102 degrees stay
 constexpr double kTurn = 0.5;          // cosine of the most that a triangle turns
 constexpr double kLongestEdge = 3;     // of the edges before; 2 are aimed at
 constexpr double kLeastQuality = 0.3;  // 1 for an equilateral triangle

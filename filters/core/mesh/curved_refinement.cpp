@@ -4,6 +4,7 @@
 #include "mesh/curved_refinement.h"
 
 #include <algorithm>
+#include <Eigen/Geometry>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -11,12 +12,20 @@
 namespace palpate {
 namespace {
 
-/// Unit normal of a vertex over one smooth patch, weighted with areas.
+/// Unit normal of a vertex over one smooth patch, exact on spheres (N. Max, "Weights for computing
+/// vertex normals from facet normals", 1999).
 Eigen::Vector3d patchNormal(const SurfaceMesh& mesh, const Eigen::VectorXi& patches, int vertex,
                             int patch) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int f : mesh.trianglesOfVertex(vertex))
-    if (patches[f] == patch) sum += mesh.triangleAreas()[f] * mesh.triangleNormals().col(f);
+  for (int f : mesh.trianglesOfVertex(vertex)) {
+    if (patches[f] != patch) continue;
+    const Eigen::Vector3i corner = mesh.triangles().col(f);
+    const int k = corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2;
+    const Eigen::Vector3d at = mesh.points().col(vertex),
+                          a = mesh.points().col(corner[(k + 1) % 3]) - at,
+                          b = mesh.points().col(corner[(k + 2) % 3]) - at;
+    sum += a.cross(b) / (a.squaredNorm() * b.squaredNorm());
+  }
   return sum.normalized();
 }
 

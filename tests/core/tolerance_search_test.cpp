@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The error that was asked for against the error of a finer level.
+
+#include "bem/tolerance_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "bem/error_estimate.h"
+#include "mesh/loop_subdivision.h"
+#include "mesh/smooth_patches.h"
+#include "model/support.h"
+#include "support/data_models.h"
+#include "support/problems.h"
+
+namespace palpate::test {
+namespace {
+
+/// Loop's levels of a control mesh from data/, the support a patch of its own.
+class Levels {
+ public:
+  explicit Levels(const std::string& name) : base_(readDataModel(name)) {
+    meshes_.push_back({base_.shape, base_.boundaryTypes});
+  }
+
+  ElasticModel operator()(int level) {
+    while (static_cast<int>(meshes_.size()) <= level) {
+      const Mesh& last = meshes_.back();
+      const LoopLevel next = subdivideLoop(last.shape.points, last.shape.triangles);
+      meshes_.push_back(
+          {{next.points, next.triangles}, refineBoundaryTypes(next, last.boundaryTypes)});
+    }
+    const auto mesh = meshes_[level].shape.mesh();
+    const BoundaryConditions conditions(meshes_[level].boundaryTypes);
+    return ElasticModel(mesh, Material(base_.youngsModulus, base_.poissonRatio), conditions,
+                        splitAtSupport(*mesh, conditions, findSmoothPatches(*mesh, 30)));
+  }
+
+ private:
+  struct Mesh {
+    Shape shape;
+    std::vector<unsigned char> boundaryTypes;
+  };
+  DataModel base_;
+  std::vector<Mesh> meshes_;
+};
+
+/// Errors of a level by its difference from the next, continued with the order 5/4.
+LoadDifferences errorsOf(Levels& levels, int level, const GreensFunctions& greens, double length) {
+  const ElasticModel model = levels(level), next = levels(level + 1);
+  BoundaryElementOptions options;
+  options.precision = next.mesh().vertexCount() < 2400 ? Precision::Float : Precision::Double;
+  const auto finer = computeGreens(next, options);
+  std::vector<int> vertices(model.mesh().vertexCount());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  ProbeLoads loads = chooseProbeLoads(model.mesh(), model.conditions(), 40);
+  loads.length = length;
+  LoadDifferences errors =
+      compareUnderLoads(*finer, next.mesh(), greens, model.mesh(), vertices, loads);
+  for (std::vector<double>* list : {&errors.field, &errors.contact})
+    for (double& error : *list) error /= 1 - std::pow(2, -1.25);
+  return errors;
+}
+
+struct Wish {
+  std::string model;
+  double tolerance;
+};
+
+class ToleranceOn : public testing::TestWithParam<Wish> {};
+
+TEST_P(ToleranceOn, IsMetByNineteenOfTwentyLoads) {
+  Levels levels(GetParam().model);
+  ToleranceLimits limits;
+  limits.levels = 3;
+  limits.vertices = 700;
+  ToleranceResult result = computeToTolerance([&](int level) { return levels(level); },
+                                              GetParam().tolerance, limits, {});
+  const ErrorEstimate estimate = result.greens.info.diagnostics.error;
+  EXPECT_LE(estimate.most(), GetParam().tolerance);
+  const LoadDifferences errors =
+      errorsOf(levels, result.level, *result.greens.take(), estimate.loadLength);
+  int met = 0;
+  for (std::size_t i = 0; i < errors.field.size(); ++i)
+    met += errors.field[i] <= GetParam().tolerance && errors.contact[i] <= GetParam().tolerance;
+  EXPECT_GE(met, 0.95 * double(errors.field.size()))
+      << LoadDifferences::most(errors.field) << " " << LoadDifferences::most(errors.contact);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ToleranceOn,
+                         testing::Values(Wish{"nodule", 0.1}, Wish{"nodule", 0.05},
+                                         Wish{"kidney", 0.1}, Wish{"spatula", 0.1},
+                                         Wish{"banana_seat", 0.1}),
+                         [](const auto& test) {
+                           return test.param.model +
+                                  std::to_string(std::lround(1000 * test.param.tolerance));
+                         });
+
+TEST(ToleranceSearch, TakesTheCoarsestLevelThatMeetsIt) {
+  Levels levels("nodule");
+  std::vector<int> asked;
+  const ToleranceResult result = computeToTolerance(
+      [&](int level) {
+        asked.push_back(level);
+        return levels(level);
+      },
+      0.3, {4, 700}, {});
+  EXPECT_EQ(result.level, 0);
+  EXPECT_EQ(asked, std::vector<int>{0});
+  ASSERT_EQ(result.steps.size(), 1u);
+  EXPECT_NE(result.steps[0].find("34 vertices, single precision"), std::string::npos);
+}
+
+TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
+  Levels levels("nodule");
+  const auto refusal = [&](double tolerance, ToleranceLimits limits) {
+    try {
+      computeToTolerance([&](int level) { return levels(level); }, tolerance, limits, {});
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string far = refusal(1e-3, {4, 700});
+  EXPECT_NE(far.find("a tolerance of 0.1 % is out of reach"), std::string::npos) << far;
+  EXPECT_NE(far.find("level 2, the last within 4 refinements and 700 vertices, would have about"),
+            std::string::npos)
+      << far;
+  const std::string here = refusal(0.02, {0, 700});
+  EXPECT_NE(here.find("level 0 with its 34 vertices has an estimated error of"), std::string::npos);
+  EXPECT_NE(here.find("and is the last within 0 refinements"), std::string::npos) << here;
+}
+
+TEST(ToleranceSearch, RefusesImpossibleTolerances) {
+  Levels levels("nodule");
+  for (double tolerance : {0.0, -1.0, 1.0, std::nan("")})
+    EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, tolerance, {}, {}),
+                 std::invalid_argument);
+}
+
+TEST(ToleranceSearch, CanBeAborted) {
+  Levels levels("kidney");
+  EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, 0.05, {}, {},
+                                  [](double fraction, const char*) { return fraction < 0.5; }),
+               Aborted);
+}
+
+}  // namespace
+}  // namespace palpate::test
