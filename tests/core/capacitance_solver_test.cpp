@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "support/contact_bodies.h"
+#include "support/fresh_solve.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
@@ -18,25 +19,6 @@ namespace {
 // What the capacitance matrix algorithm must keep to against a fresh solve. The systems' condition
 // numbers are about 1e3, so rounding alone is a thousandth of it.
 constexpr double kFresh = 1e-10;
-
-struct Nodal {
-  Eigen::Matrix3Xd displacement, traction;
-};
-
-/// The exchanged system assembled and solved as a problem of its own.
-/// @param exchanged  free nodes to fix and fixed nodes to release.
-/// @param given      3 by #nodes: what the exchanged problem prescribes.
-Nodal solveAfresh(const Shape& shape, const GreensFunctions& reference,
-                  const std::vector<int>& exchanged, const Eigen::Matrix3Xd& given) {
-  std::vector<unsigned char> types = reference.info().conditions.types();
-  for (int node : exchanged) types[node] = !types[node];
-  const TouchedBody fresh = touchedBody(shape, types, false, reference.info().domain);
-  Nodal solution{solveReferenceProblem(*fresh.greens, given), given};
-  for (int node = 0; node < given.cols(); ++node)
-    if (fresh.greens->isFixed(node))
-      solution.displacement.col(node).swap(solution.traction.col(node));
-  return solution;
-}
 
 /// Compares whole-node switches, with random values at all nodes whether switched or not, with the
 /// fresh solve.

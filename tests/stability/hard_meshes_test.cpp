@@ -1,35 +1,25 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Meshes that trouble other codes: needles, high valence, thin walls, near neighbours.
+// Sound meshes that trouble other codes: needles, slivers, high valence, grading, near neighbours.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/LU>
+#include <random>
+#include <string>
 
-#include "contact/pressure_mask.h"
-#include "contact/surface_stiffness.h"
+#include "stability/hard_case.h"
+#include "support/pole_compliance.h"
 #include "support/problems.h"
+#include "support/soups.h"
 
 namespace palpate::test {
 namespace {
 
-/// Compliance under a mask of radius 0.6 around the vertex nearest to the north pole.
-Eigen::Matrix3d poleCompliance(const ElasticModel& model) {
-  Eigen::Index pole;
-  model.mesh().points().row(2).maxCoeff(&pole);
-  const PressureMasks masks(model.mesh(), model.conditions(), MaskShape::Linear, 0.6);
-  const VertexMask mask = masks.at(static_cast<int>(pole));
-  BoundaryElementOptions options;
-  options.columns = mask.nodes;
-  return maskedVertexStiffness(*computeGreens(model, options), static_cast<int>(pole), mask)
-      .stiffness.inverse();
-}
-
-double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return (a - b).norm() / b.norm();
+HardCase hard(const std::string& name, const std::string& danger) {
+  return {"mesh", name, danger};
 }
 
 /// A sphere with a vertex on its equator pulled to within `distance` edges of a neighbour.
@@ -48,44 +38,145 @@ Shape needles(double distance) {
 
 TEST(Needles, DoNotChangeWhatIsFeltElsewhere) {
   const Eigen::Matrix3d sound = poleCompliance(makeModel(icosphere(3), cap, 1, 0.3));
-  for (const double distance : {1e-2, 1e-4, 1e-6}) {
-    const ElasticModel model = makeModel(needles(distance), cap, 1, 0.3);
-    EXPECT_LT(difference(poleCompliance(model), sound), 1e-3) << distance;
-  }
+  double worst = 0;
+  for (const double distance : {1e-2, 1e-4, 1e-6})
+    worst = std::max(
+        worst, complianceChange(poleCompliance(makeModel(needles(distance), cap, 1, 0.3)), sound));
+  hard("needles: a vertex 1e−2, 1e−4, 1e−6 edges from its neighbour, 642 vertices",
+       "near-singular integrals, rows that are almost alike")
+      .expectAtMost("largest change of the compliance at the pole", worst, 1e-3);
 }
 
-TEST(Slivers, WithAnglesNearAHalfTurnKeepTheCompliance) {
-  // Every other triangle of a fine sphere is cut by a vertex near the middle of its longest edge:
-  // its larger part has an angle of nearly 180 degrees.
-  const Shape base = icosphere(2);
+TEST(Needles, CostNoMoreThanThreeTimesTheAssembly) {
+  // Of several runs the fastest: the machine may have other work.
+  const auto seconds = [](const Shape& shape) {
+    const ElasticModel model = makeModel(shape, cap, 1, 0.3);
+    BoundaryElementOptions options = raw();
+    options.columns = {0};
+    options.threads = 1;
+    double fastest = 1e9;
+    for (int run = 0; run < 3; ++run)
+      for (const auto& [stage, time] :
+           computeBoundaryElementGreensFunctions(model, options).info.diagnostics.seconds)
+        if (stage.find("assembl") != std::string::npos) fastest = std::min(fastest, time);
+    return fastest;
+  };
+  const double ratio = seconds(needles(1e-6)) / seconds(icosphere(3));
+  EXPECT_GT(ratio, 0.1) << "both were measured";
+  hard("the same needle, 1e−6", "subdivision without end")
+      .expectAtMost("assembly time over that of the sound mesh", ratio, 3);
+}
+
+/// The same polyhedron with every `stride`-th triangle cut in three by a vertex beside the middle
+/// of its first edge, at this share of its height from it: the largest of the three angles there is
+/// nearly 180 degrees.
+Shape cutIntoSlivers(const Shape& base, int stride, double height) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;
   for (int v = 0; v < base.points.cols(); ++v) points.push_back(base.points.col(v));
   for (int f = 0; f < base.triangles.cols(); ++f) {
     const Eigen::Vector3i t = base.triangles.col(f);
-    if (f % 2 == 0) {
+    if (f % stride == 0) {
       triangles.push_back(t);
       continue;
     }
     const Eigen::Vector3d a = base.points.col(t[0]), b = base.points.col(t[1]),
                           c = base.points.col(t[2]);
     const int middle = static_cast<int>(points.size());
-    points.push_back(0.5 * (a + b) + 1e-4 * (c - 0.5 * (a + b)));
+    points.push_back(0.5 * (a + b) + height * (c - 0.5 * (a + b)));
     triangles.push_back({t[0], t[1], middle});
     triangles.push_back({t[1], t[2], middle});
     triangles.push_back({t[2], t[0], middle});
   }
-  const ElasticModel sound = makeModel(base, cap, 1, 0.3);
-  const ElasticModel model = makeModel(fromLists(points, triangles), cap, 1, 0.3);
-  // The same polyhedron, differently discretised: within the coarse mesh's own error of 5 %.
-  EXPECT_LT(difference(poleCompliance(model), poleCompliance(sound)), 0.05);
+  return fromLists(points, triangles);
 }
 
-TEST(Valence, OfFortyAtThePoleKeepsTheCompliance) {
-  // Two fans of forty triangles at the poles against a regular mesh of the same sphere.
+TEST(Slivers, WithAnglesNearAHalfTurnKeepTheCompliance) {
+  const Shape base = icosphere(2);
+  const Eigen::Matrix3d sound = poleCompliance(makeModel(base, cap, 1, 0.3));
+  const Eigen::Matrix3d cut = poleCompliance(makeModel(cutIntoSlivers(base, 2, 1e-4), cap, 1, 0.3));
+  // The same polyhedron, differently discretised: within the coarse mesh's own error of 5 %.
+  hard("slivers of aspect 1e4 in every other triangle of a sphere, 322 vertices",
+       "gradients across a sliver's height")
+      .expectAtMost("change of the compliance at the pole", complianceChange(cut, sound), 0.05);
+}
+
+bool base(const Eigen::Vector3d& x) {
+  return x.z() < 1e-9;
+}
+
+/// A unit cube whose vertices within its faces are moved there, at random, by up to this share of
+/// an edge.
+Shape jitteredCube(int divisions, double amount) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-amount / divisions, amount / divisions);
+  return box({1, 1, 1}, Eigen::Vector3i::Constant(divisions)).mapped([&](Eigen::Vector3d x) {
+    const Eigen::Vector3d before = x;
+    for (int k = 0; k < 3; ++k) {
+      const double shift = uniform(random);
+      if (before[k] > 1e-9 && before[k] < 1 - 1e-9) x[k] += shift;
+    }
+    return x;
+  });
+}
+
+TEST(PatchTest, HoldsOnNeedlesSliversJitteredAndGradedMeshes) {
+  // A linear field is held exactly: what is left is the integration tolerance of 1e-6, an
+  // equation's, amplified by the solution (cond ~ 100 of which little is seen).
+  const std::string linear = "largest error of u of a linear field";
+  const auto error = [](const Shape& shape) {
+    return patchTestError(makeModel(shape, base, 1, 0.3), {});
+  };
+  hard("needles of aspect 250 … 2.5e5 round a cube", "near-singular integrals over needles")
+      .expectAtMost(linear,
+                    std::max({error(boxWithNeedles(1e-3)), error(boxWithNeedles(1e-4)),
+                              error(boxWithNeedles(1e-6))}),
+                    1e-5);
+  hard("slivers of aspect 1e4 all over a cube", "near-singular integrals over slivers")
+      .expectAtMost(linear, error(cutIntoSlivers(box({1, 1, 1}, {3, 3, 3}), 2, 1e-4)), 1e-5);
+  hard("a cube's vertices moved by up to 0.4 of an edge", "errors that cancel on regular meshes")
+      .expectAtMost(linear, error(jitteredCube(5, 0.4)), 1e-5);
+  hard("a cube graded 1 : 2000 towards an edge", "small elements beside large ones")
+      .expectAtMost(linear, error(box({1, 1, 1}, {6, 6, 6}).mapped([](const Eigen::Vector3d& x) {
+                      return Eigen::Vector3d(std::pow(x.x(), 4), x.y(), std::pow(x.z(), 4));
+                    })),
+                    1e-5);
+}
+
+TEST(JitteredMesh, KeepsThePointSourcesField) {
+  // Twice the error of the regular mesh of 642 vertices, as its edges are up to twice as long.
+  hard("a sphere's vertices moved by up to 0.35 of an edge, 642 vertices",
+       "errors that cancel on regular meshes")
+      .expectAtMost("relative L2 error of u",
+                    pointSourceError(makeModel(jitteredSphere(3, 0.35), cap, 1, 0.3)), 0.01);
+}
+
+TEST(GradedMesh, YieldsAsTheFiniteElementReference) {
+  // NUMERICS.md section 4, clamped sphere, hp finite elements; what a graded mesh of 674 vertices
+  // reached there was +0.12 and -1.7 %.
+  const double rim = 2 * std::asin(0.15), clamp = std::acos(-0.8);
+  const Shape shape = ringedSphere(
+      [=](double angle) {
+        return std::min(
+            {0.4, 0.04 + 0.5 * std::max(0.0, angle - rim), 0.03 + 0.6 * std::abs(angle - clamp)});
+      },
+      {rim, clamp});
+  const ElasticModel model = makeModel(
+      shape, [](const Eigen::Vector3d& x) { return x.z() < -0.8 + 1e-9; }, 1, 0.3, 180);
+  const Eigen::Matrix3d compliance = poleCompliance(model, 0.3);
+  const auto graded = hard("a sphere graded 1 : 13 to its clamp line, " +
+                               std::to_string(shape.points.cols()) + " vertices",
+                           "the clamp line costs more than all else: −8 % on a uniform mesh");
+  graded.expectAtMost("error of the normal compliance, finite elements",
+                      std::abs(compliance(2, 2) / 3.137999 - 1), 0.01);
+  graded.expectAtMost("error of the tangential compliance, finite elements",
+                      std::abs(compliance(0, 0) / 15.631981 - 1), 0.03);
+}
+
+/// A unit sphere of rings with a fan of `around` triangles at either pole.
+Shape fans(int around, int rings) {
   std::vector<Eigen::Vector3d> points{Eigen::Vector3d::UnitZ()};
   std::vector<Eigen::Vector3i> triangles;
-  constexpr int around = 40, rings = 19;
   for (int k = 1; k <= rings; ++k)
     for (int i = 0; i < around; ++i) {
       const double polar = M_PI * k / (rings + 1), turn = 2 * M_PI * (i + 0.5 * (k % 2)) / around;
@@ -94,7 +185,7 @@ TEST(Valence, OfFortyAtThePoleKeepsTheCompliance) {
     }
   points.push_back(-Eigen::Vector3d::UnitZ());
   const int south = static_cast<int>(points.size()) - 1;
-  const auto at = [](int k, int i) { return 1 + (k - 1) * around + (i + around) % around; };
+  const auto at = [&](int k, int i) { return 1 + (k - 1) * around + (i + around) % around; };
   for (int i = 0; i < around; ++i) {
     triangles.emplace_back(0, at(1, i), at(1, i + 1));
     triangles.emplace_back(south, at(rings, i + 1), at(rings, i));
@@ -104,63 +195,49 @@ TEST(Valence, OfFortyAtThePoleKeepsTheCompliance) {
       triangles.emplace_back(at(k + 1, i + shift), at(k + 1, i + shift + 1), at(k, i + 1));
     }
   }
-  const Eigen::Matrix3d fan = poleCompliance(makeModel(fromLists(points, triangles), cap, 1, 0.3));
+  return fromLists(points, triangles);
+}
+
+TEST(Valence, OfFortyAtThePoleKeepsTheCompliance) {
+  const ElasticModel model = makeModel(fans(40, 19), cap, 1, 0.3);
+  const Eigen::Matrix3d fan = poleCompliance(model);
   const Eigen::Matrix3d regular = poleCompliance(makeModel(icosphere(3), cap, 1, 0.3));
+  const auto valence = hard("valence 40 at the pole, 762 vertices", "a vertex of forty needles");
+  valence.expectAtMost("difference of the normal compliance, regular mesh",
+                       std::abs(fan(2, 2) / regular(2, 2) - 1), 0.03);
   // The two supports end on different rings of vertices, which costs the tangential part most.
-  EXPECT_NEAR(fan(2, 2) / regular(2, 2), 1, 0.03);
-  EXPECT_NEAR(fan(0, 0) / regular(0, 0), 1, 0.1);
-  EXPECT_NEAR(fan(0, 0), fan(1, 1), 1e-6 * fan(0, 0));  // forty-fold symmetry
+  valence.expectAtMost("difference of the tangential compliance, regular mesh",
+                       std::abs(fan(0, 0) / regular(0, 0) - 1), 0.1);
+  valence.expectAtMost("difference of its two tangential directions",
+                       std::abs(fan(0, 0) / fan(1, 1) - 1), 1e-6);  // forty-fold symmetry
 }
 
-TEST(SmoothPatches, OfSingleTrianglesAllOverASupportKeepTheSystemRegular) {
-  for (const Collocation collocation : {Collocation::Averaged, Collocation::Vertex})
-    for (const double smoothAngle : {0.0, 30.0}) {
-      const ElasticModel model = makeModel(
-          jitteredSphere(2, 0.3).mapped([](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-            return x * (1 + 0.05 * std::sin(31 * x.x() + 57 * x.y() + 43 * x.z()));
-          }),
-          [](const Eigen::Vector3d& x) { return x.z() < -0.6; }, 1, 0.3, smoothAngle);
-      BoundaryElementOptions options;
-      options.collocation = collocation;
-      options.columns = {model.conditions().freeNodes().front()};
-      EXPECT_LT(
-          computeBoundaryElementGreensFunctions(model, options).info.diagnostics.conditionEstimate,
-          1e4);
-    }
+/// A prism over a regular polygon, its top and its base each a fan round their centre.
+Shape prism(int sides) {
+  std::vector<Eigen::Vector3d> points{{0, 0, 1}, {0, 0, 0}};
+  std::vector<Eigen::Vector3i> triangles;
+  for (int i = 0; i < sides; ++i)
+    for (double z : {1, 0})
+      points.emplace_back(std::cos(2 * M_PI * i / sides), std::sin(2 * M_PI * i / sides), z);
+  for (int i = 0; i < sides; ++i) {
+    const int a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % sides);
+    triangles.insert(triangles.end(),
+                     {{0, a, b}, {1, b + 1, a + 1}, {a, a + 1, b}, {b, a + 1, b + 1}});
+  }
+  return fromLists(points, triangles);
 }
 
-#ifdef PALPATE_WITH_CGAL
-
-/// The warnings about walls of a plate clamped over a part of its length, and its wall ratio.
-std::pair<std::string, double> wallWarning(double thickness, int layers) {
-  const ElasticModel model = makeModel(
-      box({1, 1, thickness}, {8, 8, layers}), [](const Eigen::Vector3d& x) { return x.x() < 0.45; },
-      1, 0.3);
-  BoundaryElementOptions options;
-  options.columns = {model.conditions().freeNodes().front()};
-  const Diagnostics d = computeBoundaryElementGreensFunctions(model, options).info.diagnostics;
-  std::string text;
-  for (const std::string& warning : d.warnings)
-    if (warning.find("wall") != std::string::npos) text += warning;
-  return {text, d.wallRatio};
+TEST(Valence, OfTwoHundredHoldsThePatchTest) {
+  // Sides at 1.8 degrees to each other are patches of their own, for their tractions to be exact.
+  hard("valence 200 at the centre of a prism's top and base", "a vertex of two hundred needles")
+      .expectAtMost("largest error of u of a linear field",
+                    patchTestError(makeModel(prism(200), base, 1, 0.3, 1), {}), 1e-5);
 }
-
-TEST(ThinPlate, WarnsWithTheRatioOfEdgeToThicknessAndMoreUrgentlyWhenItLocks) {
-  const auto [solid, solidRatio] = wallWarning(1, 8);
-  const auto [thin, thinRatio] = wallWarning(0.2, 2);
-  const auto [locking, lockingRatio] = wallWarning(0.01, 1);
-  EXPECT_EQ(solid, "");
-  EXPECT_NE(thin.find("thin for the mesh"), std::string::npos) << thin;
-  EXPECT_NE(locking.find("too stiff"), std::string::npos) << locking;
-  EXPECT_GT(lockingRatio, 10 * thinRatio);
-  EXPECT_GT(thinRatio, 2 * solidRatio);
-}
-
-#endif
 
 TEST(SecondBody, HoweverNearIsNeitherPressedNorFelt) {
   const Shape one = icosphere(2);
   const Eigen::Matrix3d alone = poleCompliance(makeModel(one, cap, 1, 0.3));
+  double worst = 0;
   for (const double gap : {1e-1, 1e-3, 1e-5}) {
     const Shape both = one.moved({0, 0, -2 - gap}).with(one);
     const ElasticModel model = makeModel(
@@ -170,8 +247,32 @@ TEST(SecondBody, HoweverNearIsNeitherPressedNorFelt) {
                                           : x);
         },
         1, 0.3);
-    EXPECT_LT(difference(poleCompliance(model), alone), 1e-8) << gap;
+    worst = std::max(worst, complianceChange(poleCompliance(model), alone));
   }
+  // Each body is a system of its own: rounding alone.
+  hard("a second body at a gap of 1e−1, 1e−3, 1e−5", "a system that couples what does not touch")
+      .expectAtMost("largest change of the compliance at the pole", worst, 1e-8);
+}
+
+TEST(NestedBodies, AreEachSolvedByItself) {
+  // A ball in the cavity of a hollow ball, 1e-3 from its wall: three surfaces, two bodies.
+  const Shape hollow = hollowSphere(2, 0.5);
+  const Shape both = hollow.with(icosphere(2).scaled(0.499));
+  const auto held = [](const Eigen::Vector3d& x) {
+    return cap(x.norm() < 0.4995 ? Eigen::Vector3d(x / 0.499) : x);
+  };
+  hard("a ball 1e−3 inside the cavity of a hollow ball", "nested surfaces taken for one body")
+      .expectAtMost("change of the hollow ball's compliance",
+                    complianceChange(poleCompliance(makeModel(both, held, 1, 0.3)),
+                                     poleCompliance(makeModel(hollow, held, 1, 0.3))),
+                    1e-8);
+}
+
+TEST(SecondBody, WithoutSupportIsNamed) {
+  const Shape both = icosphere(1).with(icosphere(1).moved({0, 0, 3}));
+  hard("two bodies, one unsupported", "a singular system that does not look so")
+      .expectRefused([&] { makeModel(both, cap, 1, 0.3); },
+                     "the body of vertex 42 has no fixed node");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "support/problems.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -31,6 +32,39 @@ NodalField pointSourceField(const ElasticModel& model) {
     field.traction.col(v) = bem::kelvinTraction(r, x.normalized(), nu).transpose() * force;
   }
   return field;
+}
+
+double pointSourceError(const ElasticModel& model) {
+  const auto greens = computeGreens(model, rawWithAllColumns(model));
+  const NodalField exact = pointSourceField(model);
+  Eigen::Matrix3Xd given = exact.traction;
+  for (int v : model.conditions().fixedNodes()) given.col(v) = exact.displacement.col(v);
+  return relativeError(solveReferenceProblem(*greens, given), exact.displacement, model,
+                       [&](int v) { return !model.conditions().isFixed(v); });
+}
+
+double patchTestError(const ElasticModel& model, BoundaryElementOptions options) {
+  Eigen::Matrix3d gradient;
+  gradient << 0.3, 0.5, -0.2, 0.1, -0.4, 0.7, 0.6, 0.2, 0.9;
+  const double g = model.material().shearModulus(), nu = model.material().poissonRatio();
+  const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
+  const Eigen::Matrix3d stress =
+      2 * g * (strain + nu / (1 - 2 * nu) * strain.trace() * Eigen::Matrix3d::Identity());
+  options.columns = rawWithAllColumns(model).columns;
+  options.patchColumns = true;
+  options.reciprocal = false;
+  const auto greens = computeGreens(model, options);
+  const Eigen::Matrix3Xd exact = gradient * model.mesh().points();
+  Eigen::Matrix3Xd given = Eigen::Matrix3Xd::Zero(3, exact.cols()), applied;
+  for (int v : model.conditions().fixedNodes()) given.col(v) = exact.col(v);
+  const Eigen::Matrix3Xd response =
+      solveReferenceProblem(*greens, given) +
+      solveFaceTractions(*greens, model.mesh(), model.smoothPatches(),
+                         stress * model.mesh().triangleNormals(), applied);
+  double error = 0;
+  for (int v : model.conditions().freeNodes())
+    error = std::max(error, (response.col(v) - exact.col(v)).norm());
+  return error / exact.colwise().norm().maxCoeff();
 }
 
 std::shared_ptr<const GreensFunctions> computeGreens(const ElasticModel& model,

@@ -27,6 +27,16 @@ struct NodalField {
 /// On a unit sphere, the field of the point force (0.3, -0.5, 1) at (0.3, 0.4, 1.9) outside it: A2.
 NodalField pointSourceField(const ElasticModel& model);
 
+/// Relative error of the free nodes' displacement of a body that fills a unit sphere under that
+/// field.
+double pointSourceError(const ElasticModel& model);
+
+/// The patch test: largest error of the free nodes' displacement, over the largest displacement, of
+/// a body of any polyhedron under uniform stress. The displacement is given at the support, the
+/// tractions on the triangles elsewhere; the discretisation holds the exact solution, integration
+/// aside.
+double patchTestError(const ElasticModel& model, BoundaryElementOptions options);
+
 /// A model of a shape, fixed where `fixed` says.
 ElasticModel makeModel(const Shape& shape, const Place& fixed, double youngsModulus,
                        double poissonRatio, double smoothAngle = 30,
