@@ -269,6 +269,19 @@ void requireDeterminedPressure(const ElasticModel& model, const std::vector<int>
           " is incompressible and fixed all over: its pressure is undetermined");
 }
 
+/// Bodies whose mesh resolves them stay below a quarter; beyond this, symmetrising cannot mend it.
+constexpr double kLargestReciprocityDefect = 0.5;
+
+void warnOfReciprocityDefect(Diagnostics& diagnostics) {
+  if (!(diagnostics.reciprocityDefect > kLargestReciprocityDefect)) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "the compliance is far from reciprocal (defect " << diagnostics.reciprocityDefect
+       << "), so that much of it is wrong: the mesh is too coarse for thin walls, or strips of "
+          "needles cross an auxetic body; remesh it";
+  diagnostics.warnings.push_back(text.str());
+}
+
 /// Moves the patch columns, which stand last, to a matrix of their own; makes the rest reciprocal.
 template <class Scalar>
 void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
@@ -291,6 +304,7 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
   info.diagnostics.reciprocityDefect =
       makeReciprocal(matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
                      options.reciprocal, kept, keptShare);
+  warnOfReciprocityDefect(info.diagnostics);
   info.reciprocal = options.reciprocal;
   if (model.domain() == Domain::Interior) {
     const DenseGreensFunctions<Scalar> view(info, matrix.data(), patchMatrix.data(), nullptr);
