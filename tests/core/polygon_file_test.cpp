@@ -75,6 +75,13 @@ TEST(OffFile, ACutOffFileIsRefused) {
         << "cut after " << last;
 }
 
+TEST(OffFile, ACoordinateThatIsANumberInPartIsRefused) {
+  std::string text = kPyramid;
+  text.replace(text.find("e1\n"), 2, "w1");
+  EXPECT_EQ(refusal<std::runtime_error>([&] { read(text); }),
+            "the file is not a readable OFF file");
+}
+
 TEST(OffFile, CountsBeyondTheFileAreRefusedNotAllocated) {
   for (const char* counts : {"4000000000000 1 0", "3 4000000000000 0", "2000000000 1 0",
                              "3 2000000000 0", "-5 1 0", "3 -1 0"})

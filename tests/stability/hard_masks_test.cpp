@@ -177,7 +177,7 @@ TEST(Masks, OfAnyRadiusAreFiniteOrRefused) {
   hard("a mask at a fixed vertex", "a force that acts on nothing")
       .expectRefused(
           [&] { PressureMasks(*sphere.mesh, sphere.conditions, MaskShape::Linear, 0.5).at(fixed); },
-          "vertex " + std::to_string(fixed));
+          "vertex " + std::to_string(fixed) + " is fixed: a pressure mask needs a free node");
 }
 
 }  // namespace

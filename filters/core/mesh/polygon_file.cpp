@@ -7,10 +7,13 @@
 #include <CGAL/IO/PLY.h>
 
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "mesh/cgal_surface.h"
+#include "mesh/number_text.h"
 
 namespace palpate {
 
@@ -37,6 +40,22 @@ bool hasPlausibleCounts(std::ifstream& file) {
   file.clear();
   file.seekg(0);
   return isPlausible;
+}
+
+/// CGAL's reader takes for a coordinate what of a word is a number. A text file has but one word,
+/// its first, that is none.
+bool hasNumbersAlone(std::ifstream& file) {
+  const bool isBinary = CGAL::File_scanner_OFF(file).binary();
+  file.clear();
+  file.seekg(0);
+  bool hasKeyword = false, isSound = true;
+  for (std::string line, word; !isBinary && isSound && std::getline(file, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (; isSound && words >> word; hasKeyword = true) isSound = !hasKeyword || isNumber(word);
+  }
+  file.clear();
+  file.seekg(0);
+  return isSound;
 }
 
 /// Reads with one of CGAL's readers, all of whose failures are one.
@@ -66,7 +85,8 @@ PolygonSoup readWith(const std::string& path, const char* format, const Read& re
 
 PolygonSoup readOffFile(const std::string& path) {
   return readWith(path, "OFF", [](std::ifstream& file, auto& points, auto& polygons) {
-    return hasPlausibleCounts(file) && CGAL::IO::read_OFF(file, points, polygons);
+    return hasPlausibleCounts(file) && hasNumbersAlone(file) &&
+           CGAL::IO::read_OFF(file, points, polygons);
   });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "file_checks.h"
+#include "mesh/number_text.h"
 
 #include "vtksys/SystemTools.hxx"
 
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -173,6 +175,45 @@ void rehearse(const std::string& path, const std::function<void()>& read)
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
   {
     throw std::runtime_error("the file is damaged: it cannot be read");
+  }
+}
+
+namespace
+{
+/// A corner such as 7, -7, 7/1, 7//3 or 7/1/3.
+bool isCorner(const std::string& word)
+{
+  const std::size_t digits = word[0] == '-' ? 1 : 0;
+  return word.size() > digits && word[digits] != '/' &&
+    word.find_first_not_of("0123456789/-", digits) == std::string::npos;
+}
+} // namespace
+
+void requireNumbersInObj(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  for (long number = 1; std::getline(file, line); ++number)
+  {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string kind, word;
+    words >> kind;
+    const bool isVertex = kind == "v";
+    int count = 0;
+    for (; (isVertex || kind == "f") && (words >> word) && word != "\\"; ++count)
+    {
+      if (isVertex ? count < 3 && !palpate::isNumber(word) : !isCorner(word))
+      {
+        throw std::runtime_error("the file is damaged: a " +
+          std::string(isVertex ? "coordinate" : "corner") + " in line " + std::to_string(number) +
+          " is not a number");
+      }
+    }
+    if (isVertex && count < 3)
+    {
+      throw std::runtime_error("the file is damaged: the vertex in line " + std::to_string(number) +
+        " has not three coordinates");
+    }
   }
 }
 

@@ -29,6 +29,10 @@ bool requireWholeXml(const std::string& path);
 /// @throws std::runtime_error if the process crashed or went beyond its bounds.
 void rehearse(const std::string& path, const std::function<void()>& read);
 
+/// @throws std::runtime_error naming the line if a vertex of an OBJ file has not three numbers or a face
+///         not whole numbers for its corners, of which VTK would read what there is.
+void requireNumbersInObj(const std::string& path);
+
 /// @throws std::runtime_error if a binary STL file is shorter than its triangles need, of which VTK
 ///         would read what there is.
 void requireWholeStl(const std::string& path);

@@ -198,6 +198,7 @@ void readFile(const std::string& path, vtkPolyData* output)
   }
   else if (extension == ".obj")
   {
+    palpate::io::requireNumbersInObj(path);
     readWarily<vtkOBJReader>(path, output);
   }
   else if (extension == ".ply")
