@@ -295,6 +295,17 @@ class Surfaces(Files):
             self.row("text STL, PLY, OBJ, OFF, VTP with a character that is no digit at 120 places each",
                      "“0.3w7” read as 0.3"), told)
 
+    def test_of_words_that_are_numbers_in_part(self):
+        for line, words in (("v 0 0 0.3w7", "a coordinate in line 2 is not a number"),
+                            ("v 0 0", "the vertex in line 2 has not three coordinates"),
+                            ("f 1 2 x", "a corner in line 2 is not a number")):
+            path = self.folder / "words.obj"
+            path.write_text(f"v 0 0 0 # the first\n{line}\nv 0 1 0\nf 1/1 2//2 -1\n")
+            with self.assertRaises(palpate.Error) as caught:
+                palpate.read(path)
+            self.row(f"an OBJ file with a line “{line}”", "numbers that nobody wrote").expect_said(
+                str(caught.exception).replace(str(path), "words.obj"), words)
+
     def test_with_bytes_changed_anywhere(self):
         def spoilt(_, whole):
             count = self.random.integers(1, 5, 60)
