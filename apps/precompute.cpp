@@ -186,7 +186,7 @@ void addPrecompute(CLI::App& program) {
   command->footer(
       "The estimated error is of displacements under forces spread over a fifth of the surface's "
       "size\n"
-      "(info says how far), for twelve places; refine the surface to lower it, or give "
+      "(info says how far), for two dozen places; refine the surface to lower it, or give "
       "--tolerance.\n"
       "  palpate precompute part.stl part.vtp --young 2e9 --poisson 0.35 \\\n"
       "      --fix-half-space 0 0 0.001  0 0 1");

@@ -12,7 +12,7 @@ namespace palpate {
 
 /// How wrong Green's functions are estimated to be, by cause; negative where there is no estimate.
 /// Errors are relative to the answer to unit forces, each spread like (1 - r / loadLength)+ around
-/// a point of the free surface; twelve points far from each other stand for all.
+/// a point of the free surface; two dozen points far from each other stand for all.
 struct ErrorEstimate {
   double loadLength = -1;      ///< m
   double discretization = -1;  ///< of displacements, L2 over the free surface, mean square of loads

@@ -49,7 +49,7 @@ double discretizationOrder(const GreensFunctions& finer);
 ErrorEstimate otherErrors(const GreensFunctions& greens);
 
 /// Loads of an estimate.
-constexpr int kErrorLoads = 12;
+constexpr int kErrorLoads = 24;
 
 /// Adds differences times a factor to the discretisation's errors.
 /// @param length  of the loads, m.

@@ -18,9 +18,11 @@ namespace {
 constexpr double kShareOfOthers = 0.01;  // of the tolerance, for integrals and arithmetic
 constexpr double kFloatTolerance = 1e-3;
 constexpr double kLeastIntegration = 1e-6, kMostIntegration = 1e-3;
+constexpr double kMargin = 1.2;     // of estimates that are relied on
 constexpr double kDoubtful = 2;     // predictions may be wrong by this factor
-constexpr int kLeastVertices = 50;  // of a level whose next one is compared with it
-constexpr int kLevelFactor = 4;     // vertices of a level over those of the level before
+constexpr int kLeastVertices = 50;  // of a level that tells of the next one's error
+constexpr int kSmall = 200;  // vertices; below, the next level tells of the error, and costs little
+constexpr int kLevelFactor = 4;  // vertices of a level over those of the level before
 
 std::string percent(double share) {
   std::ostringstream text;
@@ -62,80 +64,113 @@ double observedOrder(const Level& fine, const Level& middle, const Level& coarse
 
 class Search {
  public:
-  Search(double tolerance, const ToleranceLimits& limits, BoundaryElementOptions options)
-      : tolerance_(tolerance), limits_(limits), options_(std::move(options)) {
+  Search(const std::function<ElasticModel(int)>& model, double tolerance,
+         const ToleranceLimits& limits, BoundaryElementOptions options, const Progress& progress)
+      : model_(model),
+        tolerance_(tolerance),
+        limits_(limits),
+        options_(std::move(options)),
+        progress_(progress) {
+    options_.estimateError = false;  // done here
     options_.tolerance =
         std::clamp(kShareOfOthers * tolerance, kLeastIntegration, kMostIntegration);
     options_.precision = tolerance < kFloatTolerance ? Precision::Double : Precision::Float;
   }
 
-  ToleranceResult run(const std::function<ElasticModel(int)>& levelModel,
-                      const Progress& progress) {
+  ToleranceResult run() {
     for (int k = 0;; ++k) {
-      solve(levelModel(k), progress.part(1 - std::pow(4.0, -k), 1 - std::pow(4.0, -k - 1)));
-      Level& level = levels_.back();
-      ErrorEstimate& estimate = level.result.info.diagnostics.error;
-      if (estimate.discretization < 0) estimate = estimateByLevels();
-      const double error = estimate.most();
-      if (error < 0)
+      solve(k);
+      const ErrorEstimate estimate = estimateLevel(k);
+      levels_[k].result.info.diagnostics.error = estimate;
+      if (estimate.most() < 0)
         throw std::runtime_error(
-            "no error can be estimated for this surface: leave out the tolerance, or compute the "
-            "Green's functions of all free vertices");
-      steps_.push_back(describe(k, level.vertices(), error));
-      if (error <= tolerance_) return {k, std::move(level.result), std::move(steps_)};
-      requireReachable(k, error);
+            "no error can be estimated for this surface: leave out the tolerance");
+      steps_.push_back(describe(k, estimate.most()));
+      if (kMargin * estimate.most() <= tolerance_)
+        return {k, std::move(levels_[k].result), std::move(steps_)};
+      requireReachable(k, estimate.most());
     }
   }
 
  private:
-  void solve(ElasticModel model, const Progress& progress) {
-    options_.estimateError = levels_.empty() || levels_.back().vertices() < kLeastVertices;
-    const ProgressCallback callback = [&](double fraction, const char* stage) {
-      progress.report(fraction, stage);
-      return true;
-    };
-    try {
-      levels_.push_back({model, computeBoundaryElementGreensFunctions(model, options_, callback)});
-    } catch (const std::runtime_error& failure) {
-      if (options_.precision != Precision::Float || dynamic_cast<const Aborted*>(&failure)) throw;
-      options_.precision = Precision::Double;
-      levels_.push_back({model, computeBoundaryElementGreensFunctions(model, options_, callback)});
+  /// Solves the levels up to this one that are not yet.
+  void solve(int level) {
+    for (int k = static_cast<int>(levels_.size()); k <= level; ++k) {
+      const Progress part = progress_.part(1 - std::pow(4.0, -k), 1 - std::pow(4.0, -k - 1));
+      const ProgressCallback callback = [&](double fraction, const char* stage) {
+        part.report(fraction, stage);
+        return true;
+      };
+      const ElasticModel model = model_(k);
+      try {
+        levels_.push_back(
+            {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
+      } catch (const std::runtime_error& failure) {
+        if (options_.precision != Precision::Float || dynamic_cast<const Aborted*>(&failure)) throw;
+        options_.precision = Precision::Double;
+        levels_.push_back(
+            {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
+      }
     }
-    if (levels_.size() > 3) levels_.erase(levels_.begin());
   }
 
-  /// No estimate if there is but one level.
-  ErrorEstimate estimateByLevels() {
-    if (levels_.size() < 2) return levels_.back().result.info.diagnostics.error;
-    const Level &fine = levels_.back(), &coarse = levels_[levels_.size() - 2];
-    order_ = levels_.size() < 3 ? discretizationOrder(*fine.result.view())
-                                : observedOrder(fine, coarse, levels_.front());
-    ErrorEstimate estimate = otherErrors(*fine.result.view());
-    const ProbeLoads loads = coarse.loads();
-    addDiscretization(differenceOf(fine, coarse, loads),
-                      1 / (std::pow(edgeRatio(fine, coarse), order_) - 1), loads.length, estimate);
+  bool mayRefine(int level) const {
+    return level < limits_.levels && kLevelFactor * levels_[level].vertices() <= limits_.vertices;
+  }
+
+  ErrorEstimate estimateLevel(int level) {
+    const bool isSmall = levels_[level].vertices() < kSmall;
+    if (isSmall && mayRefine(level)) return estimateByFiner(level);
+    if (!isSmall && level > 0 && levels_[level - 1].vertices() >= kLeastVertices)
+      return estimateByCoarser(level);
+    const Level& own = levels_[level];
+    return estimateError(own.model, options_, *own.result.view());
+  }
+
+  ErrorEstimate estimateByFiner(int level) {
+    solve(level + 1);
+    const Level &own = levels_[level], &finer = levels_[level + 1];
+    order_ = discretizationOrder(*finer.result.view());
+    const double gain = std::pow(edgeRatio(finer, own), order_);
+    return estimateBy(differenceOf(finer, own, own.loads()), gain / (gain - 1), own, own);
+  }
+
+  ErrorEstimate estimateByCoarser(int level) {
+    const Level &own = levels_[level], &coarser = levels_[level - 1];
+    order_ = level < 2 ? discretizationOrder(*own.result.view())
+                       : observedOrder(own, coarser, levels_[level - 2]);
+    const double gain = std::pow(edgeRatio(own, coarser), order_);
+    return estimateBy(differenceOf(own, coarser, coarser.loads()), 1 / (gain - 1), own, coarser);
+  }
+
+  /// @param loaded  the level that the loads were chosen for.
+  static ErrorEstimate estimateBy(const LoadDifferences& differences, double factor,
+                                  const Level& own, const Level& loaded) {
+    ErrorEstimate estimate = otherErrors(*own.result.view());
+    addDiscretization(differences, factor, loaded.loads().length, estimate);
     return estimate;
   }
 
-  std::string describe(int level, int vertices, double error) const {
+  std::string describe(int level, double error) const {
     std::ostringstream text;
-    text << "level " << level << ", " << vertices << " vertices, "
+    text << "level " << level << ", " << levels_[level].vertices() << " vertices, "
          << (options_.precision == Precision::Float ? "single" : "double")
          << " precision, integrals to " << options_.tolerance << ": estimated error "
-         << percent(error) << (error <= tolerance_ ? ", within " : ", above ")
+         << percent(error)
+         << (kMargin * error <= tolerance_ ? ", by a fifth within " : ", not by a fifth within ")
          << percent(tolerance_);
     return text.str();
   }
 
   /// Whether a level that the limits allow may meet the tolerance, by the error of the last.
   void requireReachable(int level, double error) const {
-    const int vertices = levels_.back().vertices();
+    const int vertices = levels_[level].vertices();
     int more = 0;
-    for (double next = kLevelFactor * double(vertices);
+    for (double next = double(kLevelFactor) * vertices;
          level + more < limits_.levels && next <= limits_.vertices; next *= kLevelFactor)
       ++more;
     const double reachable = error / std::pow(2.0, order_ * more);
-    if (more > 0 && reachable <= kDoubtful * tolerance_) return;
+    if (more > 0 && (vertices < kSmall || reachable <= kDoubtful * tolerance_)) return;
     std::ostringstream text;
     text << "a tolerance of " << percent(tolerance_) << " is out of reach: level " << level
          << " with its " << vertices << " vertices has an estimated error of " << percent(error);
@@ -149,9 +184,11 @@ class Search {
     throw std::runtime_error(text.str());
   }
 
+  const std::function<ElasticModel(int)>& model_;
   double tolerance_;
   ToleranceLimits limits_;
   BoundaryElementOptions options_;
+  Progress progress_;
   std::vector<Level> levels_;
   double order_ = 1;
   std::vector<std::string> steps_;
@@ -167,7 +204,7 @@ ToleranceResult computeToTolerance(const std::function<ElasticModel(int)>& level
     throw std::invalid_argument("the tolerance must be above 0 and below 1, not " +
                                 std::to_string(tolerance));
   const Progress whole(progress);
-  ToleranceResult result = Search(tolerance, limits, options).run(level, whole);
+  ToleranceResult result = Search(level, tolerance, limits, options, whole).run();
   whole.report(1, "done");
   return result;
 }

@@ -26,11 +26,12 @@ struct ToleranceResult {
 };
 
 /// Green's functions whose estimated error (ErrorEstimate::most: that of displacements and of
-/// contact compliances, which 95 % of the loads do not exceed) is at most a tolerance, on the
-/// coarsest level of a hierarchy of meshes that meets it.
-/// - Levels are solved from the coarsest on, as each costs up to 64 times the one before. A level's
-///   error is that of its difference from the level before, by the order that three levels show,
-///   where there are three; estimateError serves the first, and those after less than 50 vertices.
+/// contact compliances, which 95 % of the loads do not exceed) is by a fifth within a tolerance, on
+/// the coarsest level of a hierarchy of meshes that meets it.
+/// - Levels are solved from the coarsest on, as each costs up to 64 times the one before. The error
+///   of one below 200 vertices is that of its difference from the next; of others, from the one
+///   before, by the order that three levels show, where there are three; estimateError serves where
+///   there is no such level.
 /// - Integrals and arithmetic take a hundredth of the tolerance: single precision from 1e-3 on,
 ///   where the system's condition allows.
 /// @param level     gives the model's k-th level; called for 0, 1, 2 ... A level's vertices are the
