@@ -4,6 +4,7 @@
 #include "contact/contact_compliance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "contact/inverse_updates.h"
@@ -79,13 +80,15 @@ void ContactCompliance::gatherBorder(const ContactSite& site) noexcept {
           Eigen::Map<const Eigen::Matrix3d>(columnBorder_.data() + 9 * i).transpose();
 }
 
+/// Raised by the site's spread towards the weighted compliances of its nodes one by one.
 Eigen::Matrix3d ContactCompliance::ownBlock(const ContactSite& site) const noexcept {
-  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero(), mean = own;
   for (int p = 0; p < site.count; ++p) {
     const ContactSite::Part& row = site.parts[p];
     const GreensFunctions& greens = *bodies_[row.body];
     if (greens.isFixed(row.node)) {
       own += row.weight * row.weight / rigidStiffness_ * Eigen::Matrix3d::Identity();
+      mean += std::abs(row.weight) / rigidStiffness_ * Eigen::Matrix3d::Identity();
       continue;
     }
     for (int q = 0; q < site.count; ++q) {
@@ -94,21 +97,13 @@ Eigen::Matrix3d ContactCompliance::ownBlock(const ContactSite& site) const noexc
       Eigen::Matrix3d block;
       greens.gather(Eigen::Map<const Eigen::VectorXi>(&row.node, 1),
                     Eigen::Map<const Eigen::VectorXi>(&column.node, 1), block.data());
-      own += row.weight * column.weight / greens.vertexArea(column.node) *
-             (orientations_[row.body] * block * orientations_[row.body].transpose());
+      block = orientations_[row.body] * block * orientations_[row.body].transpose();
+      const double area = greens.vertexArea(column.node);
+      own += row.weight * column.weight / area * block;
+      if (p == q) mean += std::abs(row.weight) / area * block;
     }
   }
-  return site.spread > 0 ? (own + site.spread * (meanBlock(site) - own)).eval() : own;
-}
-
-/// The compliances of a site's nodes one by one, weighted.
-Eigen::Matrix3d ContactCompliance::meanBlock(const ContactSite& site) const noexcept {
-  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (int p = 0; p < site.count; ++p) {
-    ContactSite alone = ContactSite::atNode(site.parts[p].body, site.parts[p].node);
-    mean += std::abs(site.parts[p].weight) * ownBlock(alone);
-  }
-  return mean;
+  return own + site.spread * (mean - own);
 }
 
 bool ContactCompliance::hasColumns(const ContactSite& site) const noexcept {

@@ -98,7 +98,6 @@ class ContactCompliance {
   bool hasColumns(const ContactSite& site) const noexcept;
   void gatherBorder(const ContactSite& site) noexcept;
   Eigen::Matrix3d ownBlock(const ContactSite& site) const noexcept;
-  Eigen::Matrix3d meanBlock(const ContactSite& site) const noexcept;
   double* mutableColumn(int k) { return matrix_.data() + std::size_t(k) * stride_; }
 
   std::vector<std::shared_ptr<const GreensFunctions>> bodies_;
