@@ -72,7 +72,7 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     if (!obstacle.greens != !obstacle.mesh)
       throw std::invalid_argument("an elastic obstacle needs Green's functions and their surface");
     if (obstacle.greens) requireSurface(*obstacle.greens, *obstacle.mesh);
-    Moving moving;
+    MovingObstacle moving;
     moving.body = obstacle.greens ? ++body : 0;
     moving.obstacle = std::move(obstacle);
     moving.lookAt.assign(mesh_->vertexCount(), 0);
@@ -106,7 +106,7 @@ void UnilateralContact::setStiffnessScale(double scale) {
 void UnilateralContact::reset() noexcept {
   solver_.clear();
   loadCount_ = 0;
-  for (Moving& moving : obstacles_) {
+  for (MovingObstacle& moving : obstacles_) {
     moving.placed = false;
     std::fill(moving.isWatched.begin(), moving.isWatched.end(), false);
   }
@@ -117,7 +117,7 @@ void UnilateralContact::reset() noexcept {
 }
 
 Proximity UnilateralContact::proximity(int obstacle, const Eigen::Vector3d& place) const noexcept {
-  const Moving& moving = obstacles_[obstacle];
+  const MovingObstacle& moving = obstacles_[obstacle];
   Proximity near = moving.obstacle.shape->proximity(moving.pose.toOwn(place));
   near.normal = moving.pose.orientation * near.normal;
   return near;
@@ -139,7 +139,7 @@ Eigen::Vector3d UnilateralContact::placeOf(int contact) const noexcept {
 
 ContactSite UnilateralContact::siteAt(int obstacle, int vertex,
                                       const Proximity& near) const noexcept {
-  const Moving& moving = obstacles_[obstacle];
+  const MovingObstacle& moving = obstacles_[obstacle];
   ContactSite site = ContactSite::atNode(0, vertex);
   if (moving.body == 0) return site;
   for (int k = 0; k < 3; ++k)
@@ -151,7 +151,7 @@ ContactSite UnilateralContact::siteAt(int obstacle, int vertex,
 void UnilateralContact::turnBodies(const RigidPose* poses) noexcept {
   constexpr double rounding = 1e-12;
   for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle) {
-    const Moving& moving = obstacles_[obstacle];
+    const MovingObstacle& moving = obstacles_[obstacle];
     const Eigen::Quaterniond& turned = poses[obstacle].orientation;
     if (moving.body > 0 &&
         (!moving.placed || moving.pose.orientation.angularDistance(turned) > rounding))
@@ -162,7 +162,7 @@ void UnilateralContact::turnBodies(const RigidPose* poses) noexcept {
 /// Lets contacts with an elastic obstacle act on the triangles that they have slid to.
 void UnilateralContact::moveSites() noexcept {
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
-    const Anchor anchor = anchors_[contact];
+    const ContactAnchor anchor = anchors_[contact];
     if (obstacles_[anchor.obstacle].body == 0 || anchor.isHeld) continue;
     const Proximity near = proximity(anchor.obstacle, placeOf(contact));
     const ContactSite site = siteAt(anchor.obstacle, anchor.vertex, near);
@@ -172,7 +172,7 @@ void UnilateralContact::moveSites() noexcept {
 
 /// The normal of a contact. Beside an edge or corner of a tool that pierces a triangle the way out
 /// of the tool is to its side; but a face can yield to them along its own normal alone.
-Eigen::Vector3d UnilateralContact::normalOf(const Anchor& anchor,
+Eigen::Vector3d UnilateralContact::normalOf(const ContactAnchor& anchor,
                                             const Proximity& near) const noexcept {
   const bool isSharp = obstacles_[anchor.obstacle].obstacle.shape->smallestRadius() == 0;
   return anchor.vertex < 0 && isSharp ? (-anchor.faceNormal).eval() : near.normal;
@@ -181,8 +181,8 @@ Eigen::Vector3d UnilateralContact::normalOf(const Anchor& anchor,
 /// Gap and slip of each watched point where it is now, to first order in its displacement.
 void UnilateralContact::linearise() noexcept {
   for (int contact = 0; contact < solver_.count(); ++contact) {
-    Anchor& anchor = anchors_[contact];
-    const Moving& moving = obstacles_[anchor.obstacle];
+    ContactAnchor& anchor = anchors_[contact];
+    const MovingObstacle& moving = obstacles_[anchor.obstacle];
     ContactConditions& conditions = solver_.conditions(contact);
     conditions.bilateral = anchor.isHeld;
     if (anchor.isHeld) {
@@ -205,7 +205,7 @@ void UnilateralContact::linearise() noexcept {
 void UnilateralContact::settle() noexcept {
   penetration_ = 0;
   for (int contact = 0; contact < solver_.count(); ++contact) {
-    Anchor& anchor = anchors_[contact];
+    ContactAnchor& anchor = anchors_[contact];
     const Eigen::Vector3d place = placeOf(contact);
     anchor.gap = proximity(anchor.obstacle, place).distance;
     penetration_ = std::max(penetration_, -anchor.gap);
@@ -239,7 +239,7 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
 }
 
 Wrench UnilateralContact::wrench(int obstacle) const noexcept {
-  Wrench wrench{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Wrench wrench = kNoWrench;
   const Eigen::Vector3d& centre = obstacles_[obstacle].pose.position;
   for (int contact = 0; contact < solver_.count(); ++contact) {
     if (anchors_[contact].obstacle != obstacle) continue;
@@ -258,7 +258,7 @@ Eigen::Vector3d UnilateralContact::force(int obstacle) const noexcept {
 }
 
 UnilateralContact::Watched UnilateralContact::watched(int contact) const noexcept {
-  const Anchor& anchor = anchors_[contact];
+  const ContactAnchor& anchor = anchors_[contact];
   return {anchor.obstacle,
           anchor.vertex,
           anchor.vertex < 0 ? obstacles_[anchor.obstacle].large[anchor.slot] : -1,

@@ -8,34 +8,12 @@
 #include <vector>
 
 #include "contact/frictional_contact_solver.h"
-#include "contact/rigid_shape.h"
+#include "contact/unilateral_contact_settings.h"
+#include "contact/unilateral_contact_state.h"
 #include "contact/wrench.h"
 #include "mesh/surface_mesh.h"
 
 namespace palpate {
-
-/// What an elastic surface meets.
-struct Obstacle {
-  std::shared_ptr<const RigidShape> shape;
-  double friction = 0;  ///< Coulomb's mu between the two
-  /// Of a second elastic body, whose undeformed surface is `shape` in its own frame, with the
-  /// proximity's triangles those of `mesh`: both null for a rigid tool.
-  std::shared_ptr<const GreensFunctions> greens = nullptr;
-  std::shared_ptr<const SurfaceMesh> mesh = nullptr;
-  /// Obstacles of the same number, >= 0, are parts of one tool and may overlap: a vertex meets the
-  /// nearest of them only. -1: by itself.
-  int tool = -1;
-};
-
-struct UnilateralContactSettings {
-  int capacity = 128;  ///< most points watched at a time, over all obstacles
-  /// m: a vertex is watched from this distance of its undeformed place to an obstacle on, and no
-  /// longer beyond twice that; 0 for half the mean edge.
-  double margin = 0;
-  double rigidStiffness = 0;  ///< N/m, what fixed vertices yield by; 0 for 10 E times the mean edge
-  int linearisations = 1;     ///< of the gaps at the deformed place, a step
-  ContactSolverSettings solver;
-};
 
 /// Contact of an elastic surface with rigid tools and other elastic bodies: its points may not
 /// enter an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all
@@ -66,6 +44,13 @@ struct UnilateralContactSettings {
 /// All memory is reserved by the constructor: nothing else allocates or throws.
 class UnilateralContact {
  public:
+  /// Of a tool's smallest radius, the edge beyond which triangles are touched inside: a ball
+  /// between the corners of an equilateral triangle with edges so long is half its radius below
+  /// them, and of 1.73 times falls through. Shorter edges would give more contacts than nodes,
+  /// which tell nothing new.
+  static constexpr double kLargeEdge = 1.5;
+  static constexpr double kNear = 1.0 / 4;  ///< of the margin, from where these are watched
+
   /// @throws std::invalid_argument for another surface's Green's functions, without obstacle or
   ///         shape, for negative friction or settings without sense.
   UnilateralContact(std::shared_ptr<const GreensFunctions> greens,
@@ -144,10 +129,8 @@ class UnilateralContact {
   void unwatch(int contact) noexcept;
   void dismiss() noexcept;
 
-  struct Moving;
-  struct Anchor;
   struct FacePoint;
-  void findLargeTriangles(Moving& moving) const;
+  void findLargeTriangles(MovingObstacle& moving) const;
   Eigen::Matrix3d restCorners(int triangle) const noexcept;
   Eigen::Matrix3d cornersOf(int triangle) const noexcept;
   Eigen::Vector3d deepestIn(int obstacle, const Eigen::Matrix3d& corners) const noexcept;
@@ -157,7 +140,7 @@ class UnilateralContact {
   bool isDeepestPart(int obstacle, const FacePoint& point) const noexcept;
   void lookInside(int obstacle, int slot) noexcept;
   bool watchInside(int obstacle, int slot, const FacePoint& point) noexcept;
-  void moveInside(int contact, const FacePoint& point) noexcept;
+  bool moveInside(int contact, const FacePoint& point) noexcept;
   void inheritSlip(int contact, const Eigen::Vector3d& place) noexcept;
   bool followInside(bool betweenSteps) noexcept;
 
@@ -173,37 +156,14 @@ class UnilateralContact {
   void moveSites() noexcept;
   Eigen::Vector3d placeOf(int contact) const noexcept;
   Proximity proximity(int obstacle, const Eigen::Vector3d& place) const noexcept;
-  Eigen::Vector3d normalOf(const Anchor& anchor, const Proximity& near) const noexcept;
+  Eigen::Vector3d normalOf(const ContactAnchor& anchor, const Proximity& near) const noexcept;
   ContactSite siteAt(int obstacle, int vertex, const Proximity& near) const noexcept;
-
-  /// One obstacle as it moves.
-  struct Moving {
-    Obstacle obstacle;
-    int body = 0;  ///< number of an elastic obstacle among the bodies
-    RigidPose pose;
-    bool placed = false;
-    bool isHeld = false;             ///< whether it holds what it touches
-    std::vector<double> lookAt;      ///< a vertex: travelled_ at which to look again
-    std::vector<char> isWatched;     ///< a vertex
-    std::vector<int> large;          ///< triangles to be touched inside
-    std::vector<double> lookInside;  ///< one of them: travelled_ at which to look again
-  };
-  /// What is known of a watched point beyond the solver.
-  struct Anchor {
-    int obstacle;
-    int vertex;             ///< -1 for a point inside a triangle
-    int slot;               ///< of that among the obstacle's large ones
-    Eigen::Vector3d place;  ///< in the obstacle's frame, where it is or sticks
-    double gap;
-    Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
-    bool isHeld = false;
-  };
 
   std::shared_ptr<const SurfaceMesh> mesh_;
   UnilateralContactSettings settings_;
-  std::vector<Moving> obstacles_;
+  std::vector<MovingObstacle> obstacles_;
   FrictionalContactSolver solver_;
-  std::vector<Anchor> anchors_;
+  std::vector<ContactAnchor> anchors_;
   std::vector<int> loadedNodes_;  ///< free ones of the first body, of all forces
   Eigen::VectorXd tractions_;     ///< on them, Pa
   int loadCount_ = 0;

@@ -10,7 +10,7 @@
 namespace palpate {
 
 void UnilateralContact::setHeld(int obstacle, bool held) noexcept {
-  Moving& moving = obstacles_[obstacle];
+  MovingObstacle& moving = obstacles_[obstacle];
   if (moving.isHeld == held) return;
   moving.isHeld = held;
   if (held) return;
@@ -19,7 +19,7 @@ void UnilateralContact::setHeld(int obstacle, bool held) noexcept {
 }
 
 void UnilateralContact::setHeldAt(int contact, bool held) noexcept {
-  Anchor& anchor = anchors_[contact];
+  ContactAnchor& anchor = anchors_[contact];
   if (anchor.isHeld == held) return;
   anchor.isHeld = held;
   if (anchor.vertex >= 0) isHeldVertex_[anchor.vertex] = held;
@@ -45,7 +45,7 @@ bool UnilateralContact::isHeldBeside(int triangle) const noexcept {
 
 /// Whether a point can be held without being said twice where it is.
 bool UnilateralContact::canHold(int contact) const noexcept {
-  const Anchor& anchor = anchors_[contact];
+  const ContactAnchor& anchor = anchors_[contact];
   if (anchor.vertex >= 0) return !isHeldFrom(anchor.obstacle, anchor.vertex);
   const ContactSite& where = site(contact);
   bool hasOwnCorner = false;
@@ -59,7 +59,7 @@ bool UnilateralContact::canHold(int contact) const noexcept {
 
 /// Whether what is held says where a contact is already, or could not yield to it.
 bool UnilateralContact::isDetermined(int contact) const noexcept {
-  const Anchor& anchor = anchors_[contact];
+  const ContactAnchor& anchor = anchors_[contact];
   const ContactSite& where = site(contact);
   if (!anchor.isHeld)
     return anchor.vertex >= 0 ? isHeldFrom(anchor.obstacle, anchor.vertex)
@@ -76,8 +76,8 @@ void UnilateralContact::hold() noexcept {
   bool isNew = false;
   for (const bool inside : {false, true})
     for (int contact = 0; contact < solver_.count(); ++contact) {
-      Anchor& anchor = anchors_[contact];
-      const Moving& moving = obstacles_[anchor.obstacle];
+      ContactAnchor& anchor = anchors_[contact];
+      const MovingObstacle& moving = obstacles_[anchor.obstacle];
       if (!moving.isHeld || anchor.isHeld || (anchor.vertex < 0) != inside ||
           solver_.status(contact) == ContactStatus::Open || !canHold(contact))
         continue;
@@ -88,8 +88,8 @@ void UnilateralContact::hold() noexcept {
   if (!isNew) return;
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
     if (!isDetermined(contact)) continue;
-    const Anchor anchor = anchors_[contact];
-    Moving& moving = obstacles_[anchor.obstacle];
+    const ContactAnchor anchor = anchors_[contact];
+    MovingObstacle& moving = obstacles_[anchor.obstacle];
     if (anchor.vertex < 0)
       moving.lookInside[anchor.slot] = travelled_;
     else

@@ -13,15 +13,10 @@
 namespace palpate {
 namespace {
 
-/// Of a tool's smallest radius: a ball between the corners of an equilateral triangle with edges so
-/// long is half its radius below them, and of 1.73 times falls through. Shorter edges would give
-/// more contacts than nodes, which tell nothing new.
-constexpr double kLargeEdge = 1.5;
 /// Of the margin, how far an obstacle moves before a triangle that is near, but has its deepest
 /// point in a corner or on another part of the tool, is looked at again: the depth missed between
 /// is the square of it over twice the tool's radius.
 constexpr double kSoon = 1.0 / 32;
-constexpr double kNear = 1.0 / 4;  ///< of the margin, the distance at which triangles are watched
 constexpr double kNeighbourhood = 0.1;  ///< of the mean edge
 constexpr int kBalanceSteps = 12;
 constexpr double kSiteAccuracy = 1e-4;  ///< of barycentric coordinates
@@ -36,16 +31,10 @@ struct UnilateralContact::FacePoint {
   bool isCorner() const { return barycentric.maxCoeff() > 1 - 1e-9; }
 };
 
-void UnilateralContact::findLargeTriangles(Moving& moving) const {
+void UnilateralContact::findLargeTriangles(MovingObstacle& moving) const {
   const double limit = kLargeEdge * moving.obstacle.shape->smallestRadius();
-  for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle) {
-    const Eigen::Matrix3d corners = restCorners(triangle);
-    for (int k = 0; k < 3; ++k)
-      if ((corners.col(k) - corners.col((k + 1) % 3)).norm() > limit) {
-        moving.large.push_back(triangle);
-        break;
-      }
-  }
+  for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle)
+    if (mesh_->longestEdge(triangle) > limit) moving.large.push_back(triangle);
   moving.lookInside.assign(moving.large.size(), 0);
 }
 
@@ -64,7 +53,7 @@ Eigen::Matrix3d UnilateralContact::cornersOf(int triangle) const noexcept {
 
 Eigen::Vector3d UnilateralContact::deepestIn(int obstacle,
                                              const Eigen::Matrix3d& corners) const noexcept {
-  const Moving& moving = obstacles_[obstacle];
+  const MovingObstacle& moving = obstacles_[obstacle];
   Eigen::Matrix3d own;
   for (int k = 0; k < 3; ++k) own.col(k) = moving.pose.toOwn(corners.col(k));
   return moving.obstacle.shape->deepest(own);
@@ -130,7 +119,7 @@ bool UnilateralContact::isDeepestPart(int obstacle, const FacePoint& point) cons
 
 /// As look, for the inside of a triangle.
 void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
-  Moving& moving = obstacles_[obstacle];
+  MovingObstacle& moving = obstacles_[obstacle];
   double& lookAt = moving.lookInside[slot];
   const int triangle = moving.large[slot];
   if (isHeldBeside(triangle)) return;
@@ -172,7 +161,7 @@ bool UnilateralContact::watchInside(int obstacle, int slot, const FacePoint& poi
 
 /// A contact that goes on over an edge sticks, or has slipped, as it did before.
 void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) noexcept {
-  Anchor& anchor = anchors_[contact];
+  ContactAnchor& anchor = anchors_[contact];
   const RigidPose& pose = obstacles_[anchor.obstacle].pose;
   double nearest = kNeighbourhood * mesh_->meanEdgeLength();
   for (int other = 0; other < contact; ++other) {
@@ -187,8 +176,9 @@ void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) n
 
 /// Lets a contact go on to another point of its triangle. If it sticks, it sticks as far from
 /// there.
-void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept {
-  Anchor& anchor = anchors_[contact];
+/// @return whether it is another point.
+bool UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept {
+  ContactAnchor& anchor = anchors_[contact];
   anchor.faceNormal = point.faceNormal;
   ContactSite moved = site(contact);
   double way = 0;
@@ -196,40 +186,43 @@ void UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept
     way = std::max(way, std::abs(point.barycentric[k] - moved.parts[k].weight));
     moved.parts[k].weight = point.barycentric[k];
   }
-  if (way <= kSiteAccuracy) return;
+  if (way <= kSiteAccuracy) return false;
   const RigidPose& pose = obstacles_[anchor.obstacle].pose;
   if (anchor.place.allFinite())
     anchor.place += pose.toOwn(point.place) - pose.toOwn(placeOf(contact));
   solver_.move(contact, moved);
+  return true;
 }
 
 /// Brings contacts inside triangles to where the obstacles are deepest. Between steps, stops
 /// watching those that bear nothing and are well away or in a corner, and those on another part.
-/// @return whether there were any.
+/// @return whether it has moved any or let go of one.
 bool UnilateralContact::followInside(bool betweenSteps) noexcept {
-  const auto isInside = [](const Anchor& anchor) { return anchor.vertex < 0; };
+  const auto isInside = [](const ContactAnchor& anchor) { return anchor.vertex < 0; };
   if (std::none_of(anchors_.begin(), anchors_.begin() + solver_.count(), isInside)) return false;
   const double nearness = kNear * margin_;
-  gatherLoads();
-  solver_.updateDisplacements();
+  bool isChanged = false;
+  gatherLoads();  // advance may have let go of some, and a solve changes them
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
     if (anchors_[contact].vertex >= 0 || anchors_[contact].isHeld) continue;
     const int obstacle = anchors_[contact].obstacle, slot = anchors_[contact].slot;
-    Moving& moving = obstacles_[obstacle];
+    MovingObstacle& moving = obstacles_[obstacle];
     const Eigen::Matrix3d corners = cornersOf(moving.large[slot]);
     const bool idle = solver_.force(contact).isZero(0);
     const FacePoint point = facePoint(
         obstacle, corners, idle ? deepestIn(obstacle, corners) : balance(contact, corners));
     const bool isElsewhere = idle && (point.isCorner() || point.near.distance >= 2 * nearness);
     if (!betweenSteps || (!isElsewhere && isDeepestPart(obstacle, point))) {
-      if (!idle || point.near.distance < nearness / 2) moveInside(contact, point);
+      if (!idle || point.near.distance < nearness / 2)
+        isChanged = moveInside(contact, point) || isChanged;
       continue;
     }
     moving.lookInside[slot] =
         travelled_ + std::max(kSoon * margin_, wayLeft(point.near.distance, nearness));
     unwatch(contact);
+    isChanged = true;
   }
-  return true;
+  return isChanged;
 }
 
 }  // namespace palpate

@@ -12,7 +12,7 @@ namespace palpate {
 
 /// How far any point of an obstacle near the surface has moved to a pose, at most.
 double UnilateralContact::wayOf(int obstacle, const RigidPose& pose) const noexcept {
-  const Moving& moving = obstacles_[obstacle];
+  const MovingObstacle& moving = obstacles_[obstacle];
   if (!moving.placed) return 0;
   const double lever =
       std::min(moving.obstacle.shape->reach(), (moving.pose.position - centre_).norm() + radius_);
@@ -28,7 +28,7 @@ void UnilateralContact::advance(const RigidPose* poses) noexcept {
     way = std::max(way, wayOf(obstacle, poses[obstacle]));
   travelled_ += way;
   for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle) {
-    Moving& moving = obstacles_[obstacle];
+    MovingObstacle& moving = obstacles_[obstacle];
     if (!moving.placed) {
       std::fill(moving.lookAt.begin(), moving.lookAt.end(), 0);
       std::fill(moving.lookInside.begin(), moving.lookInside.end(), 0);
@@ -57,7 +57,7 @@ double UnilateralContact::wayLeft(double gap, double nearness) const noexcept {
 
 /// Watches a vertex that is near, and tells when to look at it again if it is not.
 void UnilateralContact::look(int obstacle, int vertex) noexcept {
-  Moving& moving = obstacles_[obstacle];
+  MovingObstacle& moving = obstacles_[obstacle];
   if (isHeldFrom(obstacle, vertex)) return;  // looked at again as long as it is
   const Eigen::Vector3d place = mesh_->points().col(vertex);
   const double reach = moving.obstacle.shape->reach();
@@ -112,7 +112,7 @@ Eigen::Vector3d UnilateralContact::displacementOf(int vertex) const noexcept {
 /// Whether a vertex is not watched with a nearer part of the same tool. One that is farther, by
 /// more than chatter, lets go of it.
 bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance) noexcept {
-  Moving& moving = obstacles_[obstacle];
+  MovingObstacle& moving = obstacles_[obstacle];
   if (moving.obstacle.tool < 0) return true;
   const int held = partOf_[moving.obstacle.tool][vertex];
   if (held < 0) return true;
@@ -147,7 +147,7 @@ void UnilateralContact::watch(int obstacle, int vertex, const Proximity& near) n
 void UnilateralContact::unwatch(int contact) noexcept {
   const int last = solver_.count() - 1;
   const int vertex = anchors_[contact].vertex;
-  Moving& moving = obstacles_[anchors_[contact].obstacle];
+  MovingObstacle& moving = obstacles_[anchors_[contact].obstacle];
   if (vertex >= 0) moving.isWatched[vertex] = false;
   if (vertex >= 0 && moving.obstacle.tool >= 0) partOf_[moving.obstacle.tool][vertex] = -1;
   solver_.remove(contact);
@@ -164,7 +164,7 @@ void UnilateralContact::dismiss() noexcept {
     const int obstacle = anchors_[contact].obstacle, vertex = anchors_[contact].vertex;
     const double gap = anchors_[contact].gap;
     const Proximity near = proximity(obstacle, mesh_->points().col(vertex));
-    Moving& moving = obstacles_[obstacle];
+    MovingObstacle& moving = obstacles_[obstacle];
     if (near.distance >= 2 * margin_)
       moving.lookAt[vertex] = travelled_ + near.distance - margin_;
     else if (moving.body == 0)

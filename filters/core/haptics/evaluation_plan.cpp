@@ -295,14 +295,7 @@ BodySizes sizesOf(const SceneBody& body, const Scene& scene) {
   sizes.nodeArea = mesh.vertexAreas().mean();
   sizes.edge = mesh.meanEdgeLength();
   sizes.radius = mesh.diagonal() / (2 * std::sqrt(3.0));
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    double longest = 0;
-    for (int k = 0; k < 3; ++k)
-      longest = std::max(longest, (mesh.points().col(mesh.triangles()(k, f)) -
-                                   mesh.points().col(mesh.triangles()((k + 1) % 3, f)))
-                                      .norm());
-    sizes.longestEdges.push_back(longest);
-  }
+  for (int f = 0; f < mesh.triangleCount(); ++f) sizes.longestEdges.push_back(mesh.longestEdge(f));
   std::sort(sizes.longestEdges.begin(), sizes.longestEdges.end());
   sizes.reciprocal = body.greens->info().reciprocal;
   if (scene.isOfPoints()) measureMasks(body, scene.effects, sizes);

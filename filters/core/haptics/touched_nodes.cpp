@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/unilateral_contact.h"
+
 namespace palpate {
 namespace {
 
@@ -59,7 +61,7 @@ TouchedNodes touchedVertices(double radius, const BodySizes& body, double depth,
 /// Of a tool that is small for it: a foot on flat triangles, all of one size.
 TouchedNodes touchedTriangles(double radius, const BodySizes& body, double depth, double margin) {
   const double triangle = body.nodeArea / 2, edge = std::sqrt(4 * triangle / std::sqrt(3.0));
-  const double nearness = margin / 4;  // of a triangle that is watched
+  const double nearness = UnilateralContact::kNear * margin;
   const auto reach = [&](double gap) { return std::sqrt(2 * radius * gap + gap * gap); };
   TouchedNodes touched;
   touched.pressedInside = 1 + 4 * std::min(1.0, depth * depth / (edge * edge));
@@ -78,8 +80,8 @@ TouchedNodes touchedTriangles(double radius, const BodySizes& body, double depth
 TouchedNodes touchedNodes(double radius, const BodySizes& body, double depth, double margin,
                           bool rigid) {
   const TouchedNodes fine = touchedVertices(radius, body, depth, margin, rigid);
-  const auto large =
-      std::upper_bound(body.longestEdges.begin(), body.longestEdges.end(), 1.5 * radius);
+  const auto large = std::upper_bound(body.longestEdges.begin(), body.longestEdges.end(),
+                                      UnilateralContact::kLargeEdge * radius);
   if (!rigid || large == body.longestEdges.end()) return fine;
   const TouchedNodes coarse = touchedTriangles(radius, body, depth, margin);
   const double share = static_cast<double>(body.longestEdges.end() - large) /

@@ -3,6 +3,7 @@
 
 #include "mesh/surface_mesh.h"
 
+#include <algorithm>
 #include <Eigen/Geometry>
 
 #include "mesh/mesh_defects.h"
@@ -47,6 +48,15 @@ void SurfaceMesh::computeGeometry() {
   std::vector<int> fill(incidentStart_.begin(), incidentStart_.end() - 1);
   for (int f = 0; f < triangleTotal; ++f)
     for (int k = 0; k < 3; ++k) incident_[fill[triangles_(k, f)]++] = f;
+}
+
+double SurfaceMesh::longestEdge(int triangle) const {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int from = triangles_(k, triangle), to = triangles_((k + 1) % 3, triangle);
+    longest = std::max(longest, (points_.col(from) - points_.col(to)).norm());
+  }
+  return longest;
 }
 
 void SurfaceMesh::computeShells() {

@@ -37,6 +37,8 @@ class SurfaceMesh {
   const Eigen::Matrix3Xd& triangleNormals() const { return triangleNormals_; }
   /// 3 by #V, unit area-weighted normals (zero where the triangles' normals cancel).
   const Eigen::Matrix3Xd& vertexNormals() const { return vertexNormals_; }
+  /// Length of a triangle's longest edge.
+  double longestEdge(int triangle) const;
   /// Mean length over the edges.
   double meanEdgeLength() const { return meanEdgeLength_; }
   /// Diagonal of the bounding box.

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <memory>
+
+#include "contact/frictional_contact_solver.h"
+#include "contact/rigid_shape.h"
+#include "mesh/surface_mesh.h"
+
+namespace palpate {
+
+/// What an elastic surface meets.
+struct Obstacle {
+  std::shared_ptr<const RigidShape> shape;
+  double friction = 0;  ///< Coulomb's mu between the two
+  /// Of a second elastic body, whose undeformed surface is `shape` in its own frame, with the
+  /// proximity's triangles those of `mesh`: both null for a rigid tool.
+  std::shared_ptr<const GreensFunctions> greens = nullptr;
+  std::shared_ptr<const SurfaceMesh> mesh = nullptr;
+  /// Obstacles of the same number, >= 0, are parts of one tool and may overlap: a vertex meets the
+  /// nearest of them only. -1: by itself.
+  int tool = -1;
+};
+
+struct UnilateralContactSettings {
+  int capacity = 128;  ///< most points watched at a time, over all obstacles
+  /// m: a vertex is watched from this distance of its undeformed place to an obstacle on, and no
+  /// longer beyond twice that; 0 for half the mean edge.
+  double margin = 0;
+  double rigidStiffness = 0;  ///< N/m, what fixed vertices yield by; 0 for 10 E times the mean edge
+  int linearisations = 1;     ///< of the gaps at the deformed place, a step
+  ContactSolverSettings solver;
+};
+
+}  // namespace palpate

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/unilateral_contact_settings.h"
+
+namespace palpate {
+
+/// One obstacle as it moves.
+struct MovingObstacle {
+  Obstacle obstacle;
+  int body = 0;  ///< number of an elastic obstacle among the bodies
+  RigidPose pose;
+  bool placed = false;
+  bool isHeld = false;             ///< whether it holds what it touches
+  std::vector<double> lookAt;      ///< a vertex: travelled_ at which to look again
+  std::vector<char> isWatched;     ///< a vertex
+  std::vector<int> large;          ///< triangles to be touched inside
+  std::vector<double> lookInside;  ///< one of them: travelled_ at which to look again
+};
+
+/// What is known of a watched point beyond the solver.
+struct ContactAnchor {
+  int obstacle;
+  int vertex;             ///< -1 for a point inside a triangle
+  int slot;               ///< of that among the obstacle's large ones
+  Eigen::Vector3d place;  ///< in the obstacle's frame, where it is or sticks
+  double gap;
+  Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
+  bool isHeld = false;
+};
+
+}  // namespace palpate
