@@ -7,40 +7,10 @@
 #include <memory>
 
 #include "contact/coulomb_slip.h"
+#include "contact/sliding_state.h"
 #include "contact/surface_stiffness.h"
-#include "mesh/surface_locator.h"
-#include "mesh/surface_walk.h"
 
 namespace palpate {
-
-/// What all contacts with one surface share.
-struct TouchedSurface {
-  explicit TouchedSurface(const std::shared_ptr<const SurfaceMesh>& mesh)
-      : locator(mesh), walk(mesh) {}
-  SurfaceLocator locator;
-  SurfaceWalk walk;
-};
-
-/// All of a SlidingContact that a tick changes.
-struct SlidingState {
-  enum class Phase { Unknown, Outside, Touching };
-
-  Phase phase_ = Phase::Unknown;
-  bool hasPlace_ = false;
-  Eigen::Vector3d probe_ = Eigen::Vector3d::Zero();    ///< x^H
-  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();    ///< x^H less the shift
-  Eigen::Vector3d outside_ = Eigen::Vector3d::Zero();  ///< a place out of the material
-  SurfacePoint point_{0, Eigen::Vector3d::UnitX()};
-  Eigen::Vector3d staticPoint_ = Eigen::Vector3d::Zero(), normal_ = Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d here_ = Eigen::Matrix3d::Zero();  ///< K^H(x^C)
-  double norm_ = 0;                                 ///< of here_, when the tick began
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  int blendLeft_ = 0;  ///< ticks in which what is left of the former stiffness fades
-
-  int slides_ = 0;
-  double excess_ = 0;
-  bool isHeldBack_ = false, isUnserved_ = false;
-};
 
 /// A probe's tip on an elastic surface: it pushes, sticks, slides and pulls ([JP01] sections 6.3 to
 /// 7 and fig. 8). The contact is found where the probe's way x^H enters the undeformed body and is
@@ -72,10 +42,10 @@ struct SlidingState {
 /// body that is stiffer here than there), and what the interpolated normals n differ from the
 /// triangles' by, which vanishes as these get smaller. A contact that sticks gives back nothing.
 ///
-/// Displacement by other forces. Where these displace the surface at x^C by d, f = K^H(x^C) (x^H -
-/// d
-/// - x^C): all of the above holds with x^H - d for x^H. A contact that begins does not count the d
-/// that it begins with as a step.
+/// Displacement by other forces. Where these displace the surface at x^C by d,
+///     f = K^H(x^C) (x^H - d - x^C):
+/// all of the above holds with x^H - d for x^H. A contact that begins does not count the d that it
+/// begins with as a step.
 ///
 /// One thread advances it. Nothing here but construction allocates, locks or throws.
 class SlidingContact : private SlidingState {
