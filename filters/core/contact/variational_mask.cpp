@@ -123,13 +123,18 @@ double VariationalMasks::lengthForRadius(MaskPenalty penalty, double radius) {
   return radius / (2 * linear) / (penalty == MaskPenalty::Gradient ? 1 : std::sqrt(2.));
 }
 
+/// A^-1 of loads on the free vertices: #V, zero where fixed.
+Eigen::VectorXd VariationalMasks::wholeSolution(const Eigen::VectorXd& loads) const {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(mesh_.vertexCount());
+  whole(free_->vertices) = free_->solve(loads);
+  return whole;
+}
+
 Eigen::VectorXd VariationalMasks::column(int vertex) const {
   requireFree(vertex);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(free_->vertices.size());
   load[free_->numbers[vertex]] = 1;
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(mesh_.vertexCount());
-  whole(free_->vertices) = free_->solve(load);
-  return whole;
+  return wholeSolution(load);
 }
 
 Eigen::VectorXd VariationalMasks::densityAt(const SurfacePoint& point) const {
@@ -141,9 +146,7 @@ Eigen::VectorXd VariationalMasks::densityAt(const SurfacePoint& point) const {
     const int number = free_->numbers[mesh_.triangles()(k, point.triangle)];
     if (number >= 0) load[number] = point.barycentric[k];
   }
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(mesh_.vertexCount());
-  whole(free_->vertices) = free_->solve(load);
-  return whole;
+  return wholeSolution(load);
 }
 
 Eigen::VectorXd VariationalMasks::smoothed(const Eigen::VectorXd& values) const {
@@ -152,9 +155,7 @@ Eigen::VectorXd VariationalMasks::smoothed(const Eigen::VectorXd& values) const 
                                 std::to_string(mesh_.vertexCount()) + " values, not " +
                                 std::to_string(values.size()));
   const Eigen::VectorXd areas = mesh_.vertexAreas()(free_->vertices);
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(mesh_.vertexCount());
-  whole(free_->vertices) = free_->solve(areas.cwiseProduct(values(free_->vertices)));
-  return whole;
+  return wholeSolution(areas.cwiseProduct(values(free_->vertices)));
 }
 
 VertexMask VariationalMasks::at(int vertex) const {

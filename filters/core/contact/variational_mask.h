@@ -63,6 +63,8 @@ class VariationalMasks : public VertexMasks {
 
  private:
   struct Factors;
+  Eigen::VectorXd wholeSolution(const Eigen::VectorXd& loads) const;
+
   double tail_;
   std::unique_ptr<const Factors> free_;  ///< of the free vertices' A
   Eigen::VectorXd supportShares_;        ///< #V, of all vertices' A

@@ -52,9 +52,7 @@ HandGrip::HandGrip(const HandModel& hand, std::shared_ptr<const SurfaceMesh> mes
   for (int v = 0; v < mesh_->vertexCount(); ++v) fixed_.push_back(conditions.isFixed(v));
 }
 
-double HandGrip::depth(const ToolPose& pose, int first, int count, bool fixed) const {
-  RigidPose placed[kHandCapsuleCount];
-  tool_.place(pose, placed);
+double HandGrip::depthOf(const RigidPose* placed, int first, int count, bool fixed) const {
   double least = std::numeric_limits<double>::infinity();
   for (int v = 0; v < mesh_->vertexCount(); ++v)
     if (bool(fixed_[v]) == fixed)
@@ -65,8 +63,16 @@ double HandGrip::depth(const ToolPose& pose, int first, int count, bool fixed) c
   return -least;
 }
 
+double HandGrip::depth(const ToolPose& pose, int first, int count, bool fixed) const {
+  RigidPose placed[kHandCapsuleCount];
+  tool_.place(pose, placed);
+  return depthOf(placed, first, count, fixed);
+}
+
 bool HandGrip::presses(const ToolPose& pose, int first, int count, double depth) const {
-  return this->depth(pose, first, count) > depth || this->depth(pose, first, count, true) > 0;
+  RigidPose placed[kHandCapsuleCount];
+  tool_.place(pose, placed);
+  return depthOf(placed, first, count, false) > depth || depthOf(placed, first, count, true) > 0;
 }
 
 ToolPose HandGrip::lowered(ToolPose pose, const Eigen::Vector3d& way, double farthest,
