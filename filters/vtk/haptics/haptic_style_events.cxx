@@ -11,8 +11,11 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
-// The style's part in the interactor's events: the mouse and the keys.
+// The style's part in the interactor's events: frames, the mouse and the keys.
 
 namespace
 {
@@ -21,6 +24,35 @@ constexpr double StartAbove = 0.01;   ///< diagonals, where the mouse's probe be
 constexpr double LiftedAbove = 0.05;  ///< diagonals, where it ends
 constexpr double KeyFactor = 1.25;    ///< by which a key changes a setting
 constexpr double FrictionStep = 0.05;
+
+double clamped(double value, double least, double most, const char* what)
+{
+  if (std::isnan(value))
+  {
+    throw std::invalid_argument(std::string(what) + " must be a number");
+  }
+  return std::clamp(value, least, most);
+}
+}
+
+bool vtkInteractorStyleHaptic::SetPressDepth(double depth)
+{
+  return this->Try(
+    [&]
+    {
+      this->PressDepth = clamped(depth, 0, 1, "the depth of a press");
+      this->Modified();
+    });
+}
+
+bool vtkInteractorStyleHaptic::SetFrameRate(double rate)
+{
+  return this->Try(
+    [&]
+    {
+      this->FrameRate = clamped(rate, 1, 240, "the rate of frames");
+      this->Modified();
+    });
 }
 
 void vtkInteractorStyleHaptic::OnLeftButtonDown()

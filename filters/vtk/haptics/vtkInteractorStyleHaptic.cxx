@@ -17,18 +17,6 @@
 
 vtkStandardNewMacro(vtkInteractorStyleHaptic);
 
-namespace
-{
-double clamped(double value, double least, double most, const char* what)
-{
-  if (std::isnan(value))
-  {
-    throw std::invalid_argument(std::string(what) + " must be a number");
-  }
-  return std::clamp(value, least, most);
-}
-}
-
 vtkInteractorStyleHaptic::vtkInteractorStyleHaptic()
   : Internals(new Touch)
 {
@@ -212,26 +200,6 @@ bool vtkInteractorStyleHaptic::SetServoRate(double rate)
 double vtkInteractorStyleHaptic::GetServoRate()
 {
   return this->Internals->Session.Scene().servo.rate;
-}
-
-bool vtkInteractorStyleHaptic::SetPressDepth(double depth)
-{
-  return this->Try(
-    [&]
-    {
-      this->PressDepth = clamped(depth, 0, 1, "the depth of a press");
-      this->Modified();
-    });
-}
-
-bool vtkInteractorStyleHaptic::SetFrameRate(double rate)
-{
-  return this->Try(
-    [&]
-    {
-      this->FrameRate = clamped(rate, 1, 240, "the rate of frames");
-      this->Modified();
-    });
 }
 
 bool vtkInteractorStyleHaptic::SetRecordFileName(const char* fileName)
