@@ -80,22 +80,18 @@ std::string fieldPictures(const StiffnessStudy& study) {
   const double most = std::max(-spread[0], spread[1]);
   const Scale artifact{"artefact", {-most, most}};
   const auto direction = directionOntoFreeSurface(study.meshes.back().bare);
+  const auto sideBySide = [&](const std::vector<View>& views) {
+    return Picture{views, direction, views.size() == 1 ? 430 : 770, 330, true};
+  };
   std::string result;
   for (const MeshStudy& mesh : study.meshes) {
-    Picture left{{viewOf(mesh.bare, "(a) vertex area", "VertexArea", area)}, direction, 430, 330};
-    Picture middle{{viewOf(mesh.bare, "(b) |K|, single vertex", "StiffnessNorm", norm),
-                    viewOf(mesh.masked, "(c) |K|, masked", "StiffnessNorm", norm)},
-                   direction,
-                   770,
-                   330,
-                   true};
-    Picture below{{viewOf(mesh.bare, "(d) artefact, single vertex", "StiffnessArtifact", artifact),
-                   viewOf(mesh.masked, "(e) artefact, masked", "StiffnessArtifact", artifact)},
-                  direction,
-                  770,
-                  330,
-                  true};
-    left.sharesBar = true;
+    const Picture left = sideBySide({viewOf(mesh.bare, "(a) vertex area", "VertexArea", area)});
+    const Picture middle =
+        sideBySide({viewOf(mesh.bare, "(b) |K|, single vertex", "StiffnessNorm", norm),
+                    viewOf(mesh.masked, "(c) |K|, masked", "StiffnessNorm", norm)});
+    const Picture below =
+        sideBySide({viewOf(mesh.bare, "(d) artefact, single vertex", "StiffnessArtifact", artifact),
+                    viewOf(mesh.masked, "(e) artefact, masked", "StiffnessArtifact", artifact)});
     result += "<figure><div class=\"row\"><div>" + drawn(left, mesh.name + ": vertex areas") +
               "</div><div>" +
               drawn(middle, mesh.name + ": stiffness of single vertices and under masks") +
