@@ -88,6 +88,14 @@ def number(value, what):
     return given
 
 
+def positive(value, what):
+    """A number above 0."""
+    given = number(value, what)
+    if given <= 0:
+        raise Error(f"{what} must be above 0, not {given:g}")
+    return given
+
+
 def whole_number(value, what, most):
     """An integer from 0 to `most`, however it is written."""
     given = number(value, what)

@@ -15,6 +15,7 @@ from .arguments import (
     flag,
     listed,
     number,
+    positive,
     progress_callback,
     set_mask,
     surface_of,
@@ -444,10 +445,7 @@ def stiffness_artifacts(model, radius=None, mask="linear", *, radius_in_edges=No
     algorithm.SetInputData(surface_of(model))
     algorithm.SetRigidStiffness(number(rigid_stiffness, "rigid_stiffness"))
     if smoothing_length is not None:
-        length = number(smoothing_length, "smoothing_length")
-        if length == 0:
-            raise Error("smoothing_length must be above 0")
-        algorithm.SetSmoothingLength(length)
+        algorithm.SetSmoothingLength(positive(smoothing_length, "smoothing_length"))
     if reference is not None:
         algorithm.SetReferenceData(surface_of(reference))
     set_mask(algorithm, radius, radius_in_edges, mask, distance, measure)
@@ -491,10 +489,7 @@ def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progre
     algorithm = vtkIsotropicRemeshing()
     algorithm.SetInputData(surface_of(surface))
     if edge_length is not None:
-        length = number(edge_length, "edge_length")
-        if length == 0:
-            raise Error("edge_length must be above 0")
-        algorithm.SetEdgeLength(length)
+        algorithm.SetEdgeLength(positive(edge_length, "edge_length"))
     times = whole_number(iterations, "iterations", 100)
     if times == 0:
         raise Error("iterations must be 1 to 100, not 0")

@@ -111,7 +111,7 @@ class Artifacts(unittest.TestCase):
     def test_refuses_in_a_sentence(self):
         for sentence, arguments in (
                 ("smoothing length", {"smoothing_length": 50}),
-                ("smoothing length", {"smoothing_length": -1}),
+                ("must be above 0", {"smoothing_length": -1}),
                 ("must be above 0", {"smoothing_length": 0}),
                 ("compute the reference's stiffness first", {"reference": kidney(3)}),
                 ("same body", {"reference": palpate.stiffness(sphere_model(2))})):
