@@ -181,23 +181,33 @@ bool lists(const EvaluationPlan& plan, const std::string& what) {
   return toText(plan).find(what) != std::string::npos;
 }
 
+/// The stroke of a ball, as it is planned and as it is counted.
+struct BallStroke {
+  BallStroke(double radius, double depth, double speed)
+      : scene(sceneOf("\"shape\": \"sphere\", \"radius\": " + std::to_string(radius), "")),
+        what("radius " + std::to_string(radius) + ", depth " + std::to_string(depth)),
+        course(scene) {
+    ExpectedTouch touch;
+    touch.depth = depth;
+    touch.speed = speed;
+    plan = planOf(scene, touch);
+    course.stroke(depth, radius, speed, scene.servo.rate);
+  }
+  Scene scene;
+  std::string what;
+  Course course;
+  EvaluationPlan plan;
+};
+
 /// Ticks ask for the compliance of vertices that come near, and of nothing else.
 TEST(EvaluationPlans, PredictTheTicksOfAStroke) {
   for (const double radius : {0.6, 1.0, 2.0})
     for (const double depth : {0.1, 0.15}) {
-      const Scene scene =
-          sceneOf("\"shape\": \"sphere\", \"radius\": " + std::to_string(radius), "");
-      ExpectedTouch touch;
-      touch.depth = depth;
-      touch.speed = 3;
-      Course course(scene);
-      course.stroke(depth, radius, touch.speed, scene.servo.rate);
-      const EvaluationPlan plan = planOf(scene, touch);
-      const std::string what =
-          "radius " + std::to_string(radius) + ", depth " + std::to_string(depth);
-      expectNear(plan.tick.at(0).bytes + plan.tick.at(1).bytes, course.tick.bytes, what);
-      expectNear(plan.loaded, course.loaded, what);
-      expectNear(plan.watched, course.watched, what);
+      const BallStroke stroke(radius, depth, 3);
+      expectNear(stroke.plan.tick.at(0).bytes + stroke.plan.tick.at(1).bytes,
+                 stroke.course.tick.bytes, stroke.what);
+      expectNear(stroke.plan.loaded, stroke.course.loaded, stroke.what);
+      expectNear(stroke.plan.watched, stroke.course.watched, stroke.what);
     }
 }
 
@@ -206,21 +216,12 @@ TEST(EvaluationPlans, PredictTheTicksOfSmallBalls) {
   for (const double radius : {0.03, 0.05, 0.07})
     for (const double depth : {0.02, 0.04}) {
       if (depth > radius) continue;
-      const Scene scene =
-          sceneOf("\"shape\": \"sphere\", \"radius\": " + std::to_string(radius), "");
-      ExpectedTouch touch;
-      touch.depth = depth;
-      touch.speed = 1;
-      Course course(scene);
-      course.stroke(depth, radius, touch.speed, scene.servo.rate);
-      const EvaluationPlan plan = planOf(scene, touch);
-      const std::string what =
-          "radius " + std::to_string(radius) + ", depth " + std::to_string(depth);
+      const BallStroke stroke(radius, depth, 1);
       double bytes = 0;
-      for (const PlannedWork& work : plan.tick)
+      for (const PlannedWork& work : stroke.plan.tick)
         if (work.columns > 0) bytes += work.bytes;
-      expectNear(bytes, course.tick.bytes, what);
-      expectNear(plan.watched, course.watched, what);
+      expectNear(bytes, stroke.course.tick.bytes, stroke.what);
+      expectNear(stroke.plan.watched, stroke.course.watched, stroke.what);
     }
 }
 

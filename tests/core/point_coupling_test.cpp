@@ -21,17 +21,11 @@ class PointCouplings : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     body_ = new TouchedBody(touchedSphere(2, true));
-    stiffness_ = masked(2);
+    stiffness_ = maskedStiffness(*body_, 2);
   }
   static void TearDownTestSuite() {
     stiffness_.reset();
     delete body_;
-  }
-  static std::shared_ptr<const SurfaceStiffness> masked(
-      double edges, std::shared_ptr<const GreensFunctions> greens = nullptr) {
-    return std::make_shared<SurfaceStiffness>(greens ? greens : body_->greens, body_->mesh,
-                                              MaskShape::Linear,
-                                              edges * body_->mesh->meanEdgeLength());
   }
   static SurfacePoint nearestTo(const Eigen::Vector3d& place) {
     return nearestSurfacePoint(*body_->mesh, place);
@@ -86,7 +80,7 @@ TEST_F(PointCouplings, AlongAWayAreWhatTheyAreAfresh) {
 
 TEST_F(PointCouplings, GatherWhatIsNewAndNothingElse) {
   const auto counting = std::make_shared<CountingGreens>(body_->greens);
-  const auto stiffness = masked(2, counting);
+  const auto stiffness = maskedStiffness({body_->mesh, counting}, 2);
   const SurfacePoint here = nearestTo({0.3, 0.2, 1});
   const auto& mesh = *body_->mesh;
   PointCoupling coupling(*stiffness, 2);
@@ -157,7 +151,7 @@ TEST_F(PointCouplings, StayPositiveDefiniteAndAreLoweredForNothingElse) {
 }
 
 TEST_F(PointCouplings, GoOverToAnotherStiffnessBySharesOfBoth) {
-  const auto wide = masked(3);
+  const auto wide = maskedStiffness(*body_, 3);
   const SurfacePoint a = nearestTo({0.1, 0.2, 1}), b = nearestTo({1, 0.3, 0.3});
   PointCoupling coupling(*stiffness_, 2);
   put(coupling, 0, a);

@@ -29,15 +29,11 @@ class PointTouchOfASphere : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     body_ = new TouchedBody(touchedSphere(2, true));
-    stiffness_ = masked(2);
+    stiffness_ = maskedStiffness(*body_, 2);
   }
   static void TearDownTestSuite() {
     stiffness_.reset();
     delete body_;
-  }
-  static std::shared_ptr<const SurfaceStiffness> masked(double radiusInEdges) {
-    return std::make_shared<SurfaceStiffness>(body_->greens, body_->mesh, MaskShape::Linear,
-                                              radiusInEdges * body_->mesh->meanEdgeLength());
   }
   /// Steps all tools from one set of places to another, and returns the last wrenches.
   static std::vector<Wrench> move(PointTouch& touch, const std::vector<Eigen::Vector3d>& from,
@@ -138,8 +134,8 @@ TEST_F(PointTouchOfASphere, ChangesFrictionAndStiffnessBetweenTicks) {
   };
   EXPECT_GT(across(stuck), 0.1);
   EXPECT_LE(across(slid), 1e-5);
-  for (const auto& next :
-       {masked(3), stiffness_->withRigidStiffness(0.3), stiffness_->withYoungsModulus(10)}) {
+  for (const auto& next : {maskedStiffness(*body_, 3), stiffness_->withRigidStiffness(0.3),
+                           stiffness_->withYoungsModulus(10)}) {
     touch.setStiffness(next);
     EXPECT_EQ(touch.stiffness(), next);
     move(touch, {aside}, {aside}, 2000);
@@ -222,7 +218,7 @@ TEST_F(PointTouchOfASphere, ATickWithItsSnapshotAllocatesNothing) {
   ASSERT_TRUE(allocationsAreCounted());
   PointTouch touch(stiffness_, 2, 0.4);
   ContactSnapshot snapshot = touch.makeSnapshot();
-  const auto other = masked(3);
+  const auto other = maskedStiffness(*body_, 3);
   std::vector<ToolPose> poses(2);
   Wrench wrenches[2];
   for (int tick = 0; tick < 1000; ++tick) {

@@ -21,20 +21,13 @@ constexpr double kStep = 1e-3;
 // What a tick leaves of an excess over the cone to the next one, over |f|.
 constexpr double kSettled = 1e-6;
 
-std::shared_ptr<const SurfaceStiffness> stiffnessOf(const TouchedBody& body, double radiusInEdges,
-                                                    double rigid = 0,
-                                                    MaskShape shape = MaskShape::Linear) {
-  return std::make_shared<SurfaceStiffness>(body.greens, body.mesh, shape,
-                                            radiusInEdges * body.mesh->meanEdgeLength(), rigid);
-}
-
 class SlidingContactOnAPlate : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const Shape shape = box({1, 1, 0.5}, {6, 6, 3});
     body_ = new TouchedBody(
         touchedBody(shape, fixedWhere(shape, [](const auto& x) { return x.z() == 0; }), true));
-    stiffness_ = stiffnessOf(*body_, 2);
+    stiffness_ = maskedStiffness(*body_, 2);
   }
   static void TearDownTestSuite() {
     stiffness_.reset();
@@ -285,13 +278,13 @@ TEST_F(SlidingContactOnAPlate, ATickAllocatesNothing) {
 TEST(SlidingContact, OnAnotherMeshThanItsStiffnessIsRefused) {
   const TouchedBody body = touchedSphere(1, true);
   const auto surface = std::make_shared<const TouchedSurface>(icosphere(1).mesh());
-  EXPECT_TRUE(isRefused([&] { SlidingContact(stiffnessOf(body, 2), surface); },
+  EXPECT_TRUE(isRefused([&] { SlidingContact(maskedStiffness(body, 2), surface); },
                         "the stiffness is that of another mesh than the one to be touched"));
 }
 
 TEST(SlidingContact, WithoutFrictionItsForceIsAlongTheNormal) {
   const TouchedBody body = touchedSphere(3, true);
-  WatchedContact contact(stiffnessOf(body, 2), 0);
+  WatchedContact contact(maskedStiffness(body, 2), 0);
   contact.advance({0, 0, 1.1});
   contact.moveTo({0, 0, 0.9}, kStep);
   for (double angle = 0; angle < 2; angle += 0.001) {

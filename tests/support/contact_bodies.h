@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/surface_stiffness.h"
 #include "support/problems.h"
 
 namespace palpate::test {
@@ -33,6 +34,14 @@ inline TouchedBody touchedSphere(int level, bool reciprocal) {
   const Shape shape = jitteredSphere(level, 0.2);
   return touchedBody(shape, fixedWhere(shape, [](const auto& x) { return x.z() < -0.6; }),
                      reciprocal);
+}
+
+/// A body's stiffness under masks whose radius is so many mean edges.
+inline std::shared_ptr<const SurfaceStiffness> maskedStiffness(const TouchedBody& body,
+                                                               double radiusInEdges,
+                                                               double rigid = 0) {
+  return std::make_shared<SurfaceStiffness>(body.greens, body.mesh, MaskShape::Linear,
+                                            radiusInEdges * body.mesh->meanEdgeLength(), rigid);
 }
 
 }  // namespace palpate::test
