@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "contact/capacitance_matrix.h"
 #include "support/contact_bodies.h"
+#include "support/mask_compliances.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
@@ -21,29 +21,6 @@ namespace {
 
 // Inverting a 3 by 3 matrix of condition below 1e2.
 constexpr double kRounding = 1e-13;
-
-/// B of a vertex.
-Eigen::Matrix3d vertexCompliance(const GreensFunctions& greens, int vertex,
-                                 const VertexMask& mask) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), block;
-  for (std::size_t j = 0; j < mask.nodes.size(); ++j) {
-    greens.gather(nodeList({vertex}), nodeList({mask.nodes[j]}), block.data());
-    sum += mask.density[j] * block;
-  }
-  return sum;
-}
-
-/// M of a mask.
-Eigen::Matrix3d meanCompliance(const GreensFunctions& greens, const VertexMask& mask) {
-  Eigen::MatrixXd blocks(3 * mask.nodes.size(), 3 * mask.nodes.size());
-  greens.gather(nodeList(mask.nodes), nodeList(mask.nodes), blocks.data());
-  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < mask.nodes.size(); ++i)
-    for (std::size_t j = 0; j < mask.nodes.size(); ++j)
-      mean += greens.vertexArea(mask.nodes[i]) * mask.density[i] * mask.density[j] *
-              blocks.block<3, 3>(3 * i, 3 * j);
-  return (mean + mean.transpose()) / 2;
-}
 
 class SurfaceStiffnessOfASphere : public testing::Test {
  protected:
@@ -69,17 +46,6 @@ class SurfaceStiffnessOfASphere : public testing::Test {
             {0, DisplacementMeasure::Mean}};
   }
 
-  /// B = sum over j of rho_j Xi_ij.
-  static Eigen::Matrix3d compliance(const TouchedBody& body, int vertex, const VertexMask& mask) {
-    Eigen::MatrixXd blocks(3, 3 * mask.nodes.size());
-    const std::vector<int> row = {vertex};
-    body.greens->gather(nodeList(row), nodeList(mask.nodes), blocks.data());
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (std::size_t j = 0; j < mask.nodes.size(); ++j)
-      sum += mask.density[j] * blocks.block<3, 3>(0, 3 * j);
-    return sum;
-  }
-
   Eigen::Vector3d randomPlace() {
     Eigen::Vector3d barycentric = randomVectors(1, random_).cwiseAbs();
     return barycentric / barycentric.sum();
@@ -96,7 +62,7 @@ TEST_F(SurfaceStiffnessOfASphere, IsTheInverseOfTheNearestSymmetricCompliance) {
     for (double radius : {0.0, 1.5, 3.0}) {
       const SurfaceStiffness stiffness = stiffnessOf(*body, radius);
       for (int v : body->greens->info().conditions.freeNodes()) {
-        const Eigen::Matrix3d b = compliance(*body, v, stiffness.mask(v));
+        const Eigen::Matrix3d b = vertexCompliance(*body->greens, v, stiffness.mask(v));
         const Eigen::Matrix3d m = meanCompliance(*body->greens, stiffness.mask(v));
         const Eigen::Matrix3d s = stiffness.elastic(v).inverse();
         // |(B - S) M^-1|^2 is stationary in S.
@@ -195,7 +161,8 @@ TEST_F(SurfaceStiffnessOfASphere, AForceSpreadByTheMaskMovesTheVertexByItsInvers
       const Eigen::Vector3d moved = solveReferenceProblem(*reciprocal_->greens, given).col(v);
       const Eigen::Vector3d expected = stiffness.elastic(v).inverse() * force;
       // What is served leaves out the asymmetry of the mask's compliance B, half of |B - B^T|.
-      const double left = stiffness.asymmetry(v) / 2 * compliance(*reciprocal_, v, mask).norm();
+      const double left =
+          stiffness.asymmetry(v) / 2 * vertexCompliance(*reciprocal_->greens, v, mask).norm();
       EXPECT_LE((moved - expected).norm(), left + 1e-12 * expected.norm());
       EXPECT_LE(stiffness.asymmetry(v), 0.05);
     }
@@ -323,96 +290,6 @@ TEST(SurfaceStiffness, MasksLevelTheNoiseOfAnIrregularMesh) {
   EXPECT_LT(one.variation, single.variation);
   EXPECT_LT(two.variation, one.variation);
   EXPECT_LT(three.variation, two.variation);
-}
-
-TEST(SurfaceStiffness, OfABodyThatYieldsTheWrongWayIsRefused) {
-  SyntheticBody synthetic;
-  const auto greens = denseGreens(synthetic.info(), -synthetic.matrix());
-  EXPECT_TRUE(isRefused<std::runtime_error>(
-      [&] {
-        maskedVertexStiffness(*greens, 3, {{3}, Eigen::VectorXd::Ones(1)});
-      },
-      "the compliance at vertex 3 is not positive definite: the surface is inside out there"));
-}
-
-bool atTheEdge(const Eigen::Vector3d& x) {
-  return x.x() < 1e-9;
-}
-
-TEST(SurfaceStiffness, MovesTheVerticesOfABladeAsItIsToldTo) {
-  const Shape blade = box({2, 1, 0.3}, {16, 8, 2}).mapped([](const Eigen::Vector3d& x) {
-    return Eigen::Vector3d(x.x(), x.y(), x.z() + 0.2 * x.x() * x.x());
-  });
-  const ElasticModel model = makeModel(blade, atTheEdge, 1, 0.3);
-  const auto greens = computeGreens(model, {});
-  const SurfaceStiffness stiffness(greens, blade.mesh(), MaskShape::Linear, 0.25);
-  std::vector<double> errors, errorsOfTheMean;
-  for (int v : model.conditions().freeNodes()) {
-    const Eigen::Matrix3d b = vertexCompliance(*greens, v, stiffness.mask(v));
-    errors.push_back((b * stiffness.elastic(v) - Eigen::Matrix3d::Identity()).norm());
-    errorsOfTheMean.push_back(((b - b.transpose()) * (b + b.transpose()).inverse()).norm());
-  }
-  std::sort(errors.begin(), errors.end());
-  std::sort(errorsOfTheMean.begin(), errorsOfTheMean.end());
-  EXPECT_LT(errors[errors.size() / 2], 0.05);
-  EXPECT_LT(errors.back(), 0.5);
-  EXPECT_GT(errorsOfTheMean[errors.size() / 2], 5 * errors[errors.size() / 2]);
-}
-
-TEST(SurfaceStiffness, OfThinWallsIsNowhereMoreThanTwiceThatOfTheMean) {
-  const Shape plate = box({1, 1, 0.1}, {8, 8, 1});
-  const ElasticModel model = makeModel(plate, atTheEdge, 1, 0.3);
-  const auto greens = computeGreens(model, {});
-  int limited = 0;
-  for (const double radius : {0.2, 0.4}) {
-    const SurfaceStiffness stiffness(greens, plate.mesh(), MaskShape::Linear, radius);
-    for (int v : model.conditions().freeNodes()) {
-      const Eigen::Matrix3d& k = stiffness.elastic(v);
-      EXPECT_EQ(k, k.transpose());
-      const Eigen::LLT<Eigen::Matrix3d> mean(meanCompliance(*greens, stiffness.mask(v)));
-      ASSERT_EQ(mean.info(), Eigen::Success);
-      const Eigen::Matrix3d root = mean.matrixL();
-      const Eigen::Vector3d ratios =
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(root.transpose() * k * root).eigenvalues();
-      EXPECT_GT(ratios[0], 0);
-      EXPECT_LE(ratios[2], 2 + 1e-6);
-      EXPECT_EQ(stiffness.isLimited(v), ratios[2] > 2 - 1e-6);
-      limited += stiffness.isLimited(v);
-    }
-  }
-  EXPECT_GT(limited, 0);
-}
-
-TEST(SurfaceStiffness, OfWallsFarThinnerThanEdgesIsPositiveDefiniteOrRefusedVertexByVertex) {
-  const Shape plate = box({1, 1, 0.05}, {8, 8, 1});
-  for (const double nu : {-0.5, 0.0}) {
-    const ElasticModel model = makeModel(plate, atTheEdge, 1, nu);
-    const auto greens = computeGreens(model, {});
-    const SurfaceStiffness stiffness(greens, plate.mesh(), MaskShape::Linear, 0.2);
-    int unserved = 0;
-    const std::vector<int> free = model.conditions().freeNodes();
-    for (int v : free) {
-      if (stiffness.elastic(v).hasNaN()) {
-        ++unserved;
-        EXPECT_TRUE(isRefused<std::runtime_error>([&] { stiffness.requireServed(v); },
-                                                  "the compliance at vertex "));
-      } else {
-        const Eigen::Matrix3d& k = stiffness.elastic(v);
-        EXPECT_EQ(Eigen::LLT<Eigen::Matrix3d>(k).info(), Eigen::Success);
-        const Eigen::Matrix3d b = vertexCompliance(*greens, v, stiffness.mask(v));
-        EXPECT_LE((b * k - Eigen::Matrix3d::Identity()).operatorNorm(), 1);
-      }
-    }
-    EXPECT_GT(unserved, 0) << nu;
-    EXPECT_LT(unserved, int(free.size())) << nu;
-  }
-}
-
-TEST_F(SurfaceStiffnessOfASphere, IsNowhereLimitedOnAResolvedBody) {
-  for (const double radius : {0.0, 0.3, 0.6}) {
-    const SurfaceStiffness stiffness(raw_->greens, raw_->mesh, MaskShape::Linear, radius);
-    for (int v = 0; v < raw_->mesh->vertexCount(); ++v) EXPECT_FALSE(stiffness.isLimited(v)) << v;
-  }
 }
 
 TEST_F(SurfaceStiffnessOfASphere, WhatMakesNoSenseIsRefusedWithASentence) {

@@ -3,53 +3,17 @@
 """The style that touches, from Python, without a window."""
 
 import json
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 import palpate
-from support.surfaces import cube, points_of, sphere
-from support.touch import (MODES, PRESS, RATE, REST, SIZE, STROKE, TOP, Touch, block_model, path,
-                           write_recording)
+from support.surfaces import points_of, sphere
+from support.touch import (MODES, PRESS, RATE, REST, SIZE, STROKE, TOP, Touch, Touching, block_model,
+                           path, write_recording)
 
 LOST = "the device is not there"
 INVALID = "a pose that is not finite, out of reach or no rotation"
-
-
-class Touching(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def scripted(self, positions, radius=0, **how):
-        """A fresh style whose tool follows positions."""
-        style = Touch(block_model())
-        self.recordings = getattr(self, "recordings", 0) + 1
-        file = write_recording(self.folder / f"motion{self.recordings}.txt", positions, **how)
-        self.assertTrue(style.SetDeviceToScript(str(file)))
-        self.assertTrue(style.SetToolToSphere(radius) if radius else style.SetToolToPoint())
-        return style
-
-    def run_well(self, style, seconds):
-        self.assertTrue(style.RunHeadless(seconds), style.GetFailureMessage())
-        self.assertEqual(style.errors, [])
-
-    def trace_of(self, positions, radius=0, friction=0.3):
-        style = self.scripted(positions, radius)
-        self.assertTrue(style.SetFriction(friction))
-        self.run_well(style, len(positions) / RATE)
-        return style.trace()
-
-    def refuse(self, style, sentence, method, *arguments):
-        """The call fails with one sentence and one error event."""
-        before = len(style.errors)
-        self.assertFalse(method(*arguments), (method, arguments))
-        self.assertIn(sentence, style.GetFailureMessage())
-        self.assertEqual(style.errors[before:], [style.GetFailureMessage()])
-        self.assertNotIn("\n", style.GetFailureMessage())
 
 
 class Models(Touching):
@@ -304,185 +268,6 @@ class Deformation(Touching):
         for given, taken in ((-3, 0), (9, 3), (2, 2)):
             style.SetDeformation(given)
             self.assertEqual(style.GetDeformation(), taken)
-
-
-class Recordings(Touching):
-    def test_replay_what_the_mouse_did_bit_for_bit(self):
-        file = self.folder / "recorded.txt"
-        style = Touch(block_model())
-        self.assertTrue(style.SetRecordFileName(str(file)))
-        forces = []
-        for offset in ((0, 0, 0.005), (0, 0, -0.002), (0.004, 0, -0.002), (0, 0, 0.01)):
-            style.MoveProbe(*(TOP + offset))
-            self.run_well(style, 0.7)
-            forces.append(style.force())
-        self.assertFalse(file.exists())
-        self.assertTrue(style.Stop(), style.GetFailureMessage())
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["recorded.txt"])
-        again = Touch(block_model())
-        self.assertTrue(again.SetDeviceToScript(str(file)))
-        for force in forces:
-            self.run_well(again, 0.7)
-            self.assertTrue((again.force() == force).all())
-        self.assertGreater(np.abs(forces[1]).max(), 0.1)
-
-    def test_of_a_recording_are_the_recording(self):
-        file = write_recording(self.folder / "motion.txt", path(*PRESS), away=range(3))
-        style = Touch(block_model())
-        style.SetDeviceToScript(str(file))
-        style.SetRecordFileName(str(self.folder / "copy.txt"))
-        self.run_well(style, len(path(*PRESS)) / RATE)
-        self.assertTrue(style.Stop())
-        self.assertEqual((self.folder / "copy.txt").read_text().splitlines()[3:],
-                         [" ".join(repr(float(n)).removesuffix(".0") for n in line.split())
-                          if line[0].isdigit() else line for line in file.read_text().splitlines()[3:]])
-
-    def test_are_kept_when_asked_for_after_the_probe_was_put(self):
-        style = Touch(block_model())
-        style.MoveProbe(*TOP)
-        self.assertTrue(style.SetRecordFileName(str(self.folder / "late.txt")))
-        self.run_well(style, 0.1)
-        self.assertTrue(style.Stop())
-        self.assertTrue((self.folder / "late.txt").is_file())
-
-    def test_that_cannot_be_written_are_a_failure_that_leaves_nothing(self):
-        style = Touch(block_model())
-        style.SetRecordFileName(str(self.folder / "no" / "file.txt"))
-        self.run_well(style, 0.1)
-        self.refuse(style, "file.txt cannot be written", style.Stop)
-        self.assertEqual(list(self.folder.iterdir()), [])
-
-    def test_that_are_missing_or_wrong_are_a_failure_of_the_start(self):
-        style = Touch(block_model())
-        missing = str(self.folder / "none.txt")
-        style.SetDeviceToScript(missing)
-        for method, arguments in ((style.Start, ()), (style.RunHeadless, (1,))):
-            self.refuse(style, f"the recording '{missing}' cannot be opened", method, *arguments)
-        wrong = write_recording(self.folder / "wrong.txt", path(*PRESS))
-        wrong.write_text(wrong.read_text().replace("1 0 0 0 0 0", "1 0 zero 0 0 0", 1))
-        style.SetDeviceToScript(str(wrong))
-        self.refuse(style, "line 5", style.RunHeadless, 1)
-
-
-class Settings(Touching):
-    def test_that_are_out_of_range_are_refused_and_the_last_ones_stay(self):
-        style = Touch(block_model())
-        before = [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
-                  style.GetRigidStiffness(), style.GetServoRate()]
-        nan = float("nan")
-        for method, sentence, values in (
-                (style.SetFriction, "friction must be from 0 to 100", (-1, 101, nan, np.inf)),
-                (style.SetMaskRadius, "radius of a mask must be from 0 to 1e6 m", (-1, 1e300, nan)),
-                (style.SetStiffnessScale, "stiffness scale must be positive", (0, -1, 1e300, nan)),
-                (style.SetRigidStiffness, "rigid stiffness must be from 0 to 1e15 N/m", (-1, 1e300, nan)),
-                (style.SetServoRate, "between 250 and 10000 Hz", (0, 249, 10001, nan)),
-                (style.SetToolToSphere, "radius of a ball must be positive", (0, -1, nan)),
-                (style.RunHeadless, "time to run must be from 0 to 86400 s", (-1, 1e300, nan, np.inf))):
-            for value in values:
-                self.refuse(style, sentence, method, value)
-        self.assertEqual(before, [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
-                                  style.GetRigidStiffness(), style.GetServoRate()])
-        self.assertTrue(style.RunHeadless(0.01))
-        self.assertEqual(style.GetFailureMessage(), "")
-
-    def test_have_the_values_of_the_header(self):
-        style = Touch(block_model())
-        self.assertEqual((style.GetFriction(), style.GetStiffnessScale(), style.GetRigidStiffness(),
-                          style.GetServoRate(), style.GetPressDepth(), style.GetFrameRate(),
-                          style.GetDeformation(), style.GetNumberOfTools()),
-                         (0.3, 1, 0, 1000, 0.02, 60, MODES["all"], 1))
-        corners = points_of(block_model())[np.array(
-            [[block_model().GetCell(c).GetPointId(k) for k in range(3)]
-             for c in range(block_model().GetNumberOfCells())])]
-        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)  # each of them twice
-        self.assertAlmostEqual(style.GetMaskRadius() / (2 * edges.mean()), 1, delta=1e-12)
-
-    def test_of_the_rate_count_ticks(self):
-        for rate in (250, 1000, 2000):
-            style = Touch(block_model())
-            self.assertTrue(style.SetServoRate(rate))
-            self.run_well(style, 0.5)
-            self.assertEqual(style.GetNumberOfTicks(), rate / 2)
-            self.assertEqual(style.GetNumberOfMissedTicks(), 0)
-            self.assertIn(f"{rate} Hz", style.GetStatus())
-            self.assertGreater(style.GetTickTime(0.99), 0)
-            self.assertIn("compute", style.GetTimingTable())
-
-    def test_of_a_device_that_is_not_there_fail_at_the_start(self):
-        style = Touch(block_model())
-        style.SetDeviceToHid(0x0001, 0x0002)
-        self.refuse(style, "the HID device is not there: `palpate devices` lists", style.Start)
-        self.assertFalse(style.IsRunning())
-        style.SetDeviceToMouse()
-        self.assertTrue(style.RunHeadless(0.01))
-
-
-class Scenes(Touching):
-    def scene(self, **changed):
-        palpate.write(block_model(), self.folder / "block.vtp")
-        file = self.folder / "scene.json"
-        file.write_text(json.dumps({
-            "models": [{"file": "block.vtp"}], "tools": [{"shape": "sphere", "radius": 0.03,
-                                                          "device": "mouse"}],
-            "devices": [{"name": "mouse", "type": "mouse"}],
-            "effects": {"friction": {"mu": 0.4}}, **changed}))
-        return str(file)
-
-    def test_are_taken_over(self):
-        style = Touch()
-        self.assertTrue(style.LoadScene(self.scene()), style.GetFailureMessage())
-        self.assertEqual(style.GetFriction(), 0.4)
-        style.MoveProbe(*(TOP + (0, 0, 0.05)))
-        self.run_well(style, 1)
-        style.MoveProbe(*(TOP + (0, 0, 0.028)))
-        self.run_well(style, 1)
-        self.assertGreater(style.force()[2], 0.1)
-        self.assertTrue((style.torque() == 0).all())  # not asked for
-
-    def test_that_are_wrong_name_the_key_and_leave_the_last_one(self):
-        style = Touch(block_model())
-        for sentence, changed in (
-                ('"tools[0].shape" must be one of', {"tools": [{"shape": "cone", "device": "mouse"}]}),
-                ('"servo.rate"', {"servo": {"rate": 3}}),
-                ('"effects.friction.mu"', {"effects": {"friction": {"mu": -1}}}),
-                ("none.vtp: there is no such file", {"models": [{"file": "none.vtp"}]})):
-            self.refuse(style, sentence, style.LoadScene, self.scene(**changed))
-            self.assertIs(style.GetTouchedModel(), block_model())
-        self.refuse(style, "cannot be opened", style.LoadScene, str(self.folder / "none.json"))
-
-    def test_that_lack_a_file_say_so_each_time(self):
-        style = Touch()
-        point = {"shape": "point"}
-        self.assertTrue(style.LoadScene(self.scene(
-            effects={}, tools=[{**point, "device": "mouse"}, {**point, "device": "script"}],
-            devices=[{"name": "mouse", "type": "mouse"},
-                     {"name": "script", "type": "scripted", "file": "script.txt"}])))
-        for _ in range(2):
-            self.refuse(style, "script.txt' cannot be opened", style.RunHeadless, 1)
-        write_recording(self.folder / "script.txt", path(*PRESS))
-        self.assertTrue(style.RunHeadless(REST + 0.4), style.GetFailureMessage())
-        self.assertGreater(style.force(1)[2], 0.1)
-
-    def test_have_a_plan_of_what_is_computed(self):
-        style = Touch(block_model())
-        plan = style.GetEvaluationPlan()
-        for line in ("nodes under forces", "a tick, 1 k a second", "a frame", "memory", "deformation"):
-            self.assertIn(line, plan)
-        style.SetDeformation(MODES["none"])
-        self.assertNotIn("displacements", style.GetEvaluationPlan())
-        self.assertTrue(style.LoadScene(self.scene(servo={"rate": 500})))
-        self.assertIn("a tick, 500 a second", style.GetEvaluationPlan())
-        self.assertIn("watched", style.GetEvaluationPlan())
-
-    def test_give_way_to_a_finer_model(self):
-        style = Touch()
-        self.assertTrue(style.LoadScene(self.scene()))
-        self.run_well(style, 0.01)
-        fine = cube(4, SIZE)
-        model = palpate.precompute(fine, 1e4, 0.3, fixed=points_of(fine)[:, 2] == 0)
-        self.assertTrue(style.SetModel(model), style.GetFailureMessage())
-        self.run_well(style, 0.01)
-        self.assertEqual(len(style.surface()), model.GetNumberOfPoints())
 
 
 if __name__ == "__main__":

@@ -1,8 +1,11 @@
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A block to touch, recordings to touch it with, and the style that does."""
+"""A block to touch, recordings to touch it with, the style that does, and tests without a window."""
 
 import functools
+import tempfile
+import unittest
+from pathlib import Path
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -97,3 +100,39 @@ class Touch(palpate.haptics.vtkInteractorStyleHaptic):
     def surface(self, body=0):
         """#nodes by 3, as they are drawn."""
         return points_of(self.GetDeformedSurface(body)).copy()
+
+
+class Touching(unittest.TestCase):
+    """Styles that run on virtual time, and how they fail."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def scripted(self, positions, radius=0, **how):
+        """A fresh style whose tool follows positions."""
+        style = Touch(block_model())
+        self.recordings = getattr(self, "recordings", 0) + 1
+        file = write_recording(self.folder / f"motion{self.recordings}.txt", positions, **how)
+        self.assertTrue(style.SetDeviceToScript(str(file)))
+        self.assertTrue(style.SetToolToSphere(radius) if radius else style.SetToolToPoint())
+        return style
+
+    def run_well(self, style, seconds):
+        self.assertTrue(style.RunHeadless(seconds), style.GetFailureMessage())
+        self.assertEqual(style.errors, [])
+
+    def trace_of(self, positions, radius=0, friction=0.3):
+        style = self.scripted(positions, radius)
+        self.assertTrue(style.SetFriction(friction))
+        self.run_well(style, len(positions) / RATE)
+        return style.trace()
+
+    def refuse(self, style, sentence, method, *arguments):
+        """The call fails with one sentence and one error event."""
+        before = len(style.errors)
+        self.assertFalse(method(*arguments), (method, arguments))
+        self.assertIn(sentence, style.GetFailureMessage())
+        self.assertEqual(style.errors[before:], [style.GetFailureMessage()])
+        self.assertNotIn("\n", style.GetFailureMessage())

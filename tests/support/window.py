@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A window in which a style touches, and pictures of it."""
+"""A window in which a style touches, pictures of it, and tests in it."""
 
 import os
 import shutil
 import sys
+import tempfile
 import time
+import unittest
+from pathlib import Path
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
@@ -15,7 +18,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor,
                                          vtkWindowToImageFilter)
 
-from support.touch import TOP
+from support.touch import TOP, Touch, block_model
 
 
 def ensure_display():
@@ -135,3 +138,28 @@ class TouchWindow:
         grab.ReadFrontBufferOff()
         grab.Update()
         return pixels_of(grab.GetOutput())
+
+
+class Windowed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not os.environ.get("DISPLAY"):
+            raise unittest.SkipTest("there is no display, and no xvfb-run")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def open(self, radius=0, **how):
+        style = Touch(block_model())
+        if radius:
+            style.SetToolToSphere(radius)
+        window = TouchWindow(style, **how)
+        self.addCleanup(window.close)
+        return style, window
+
+    def do(self, window, event, place=None, seconds=0.3, **how):
+        """An event, and the time for the probe to follow."""
+        window.event(event, place, **how)
+        self.assertTrue(window.style.RunHeadless(seconds), window.style.GetFailureMessage())
