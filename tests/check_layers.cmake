@@ -42,6 +42,8 @@ forbid("a consumer of Green's functions includes a producer"
 forbid("Green's functions include a producer or a consumer"
   FILES ${core}/greens/*.h ${core}/greens/*.cpp
   PATTERN "${include}(bem|fem|halfspace|identification|contact|haptics)/")
+forbid("the accuracy room includes another" FILES ${core}/accuracy/*.h ${core}/accuracy/*.cpp
+  PATTERN "${include}(mesh|model|bem|greens|contact|haptics)/")
 forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/mesh/*.cpp
   PATTERN "${include}(model|bem|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
