@@ -19,6 +19,7 @@ void addPrecompute(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);
+void addAccuracy(CLI::App& program);
 void addTouch(CLI::App& program);
 void addGrasp(CLI::App& program);
 void addDevices(CLI::App& program);

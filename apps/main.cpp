@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
   for (const auto add : {addInfo, addRepair, addRefine, addRemesh, addPrecompute, addPress,
-                         addStiffness, addArtifacts, addDevices, addTouch, addGrasp})
+                         addStiffness, addArtifacts, addAccuracy, addDevices, addTouch, addGrasp})
     add(program);
   catchInterrupts();
   try {

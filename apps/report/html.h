@@ -21,17 +21,6 @@ std::string picture(const std::string& path, const std::string& description);
 std::string table(const std::vector<std::string>& head,
                   const std::vector<std::vector<std::string>>& rows);
 
-/// Points of a law over sizes, on logarithmic axes.
-struct Series {
-  std::string name, colour;
-  std::vector<double> x, y;  ///< above 0
-  bool isLine = false;       ///< joined, without marks
-};
-
-/// A plot as inline SVG.
-std::string logarithmicPlot(const std::vector<Series>& series, const std::string& xLabel,
-                            const std::string& yLabel);
-
 /// The whole page.
 std::string page(const std::string& title, const std::string& body);
 

@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "report/plot.h"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "report/html.h"
 #include "terminal.h"
 
-namespace palpate::app::html {
+namespace palpate::app {
 namespace {
 
-constexpr double kLeft = 84, kRight = 500, kTop = 20, kBottom = 330, kWidth = 720, kHeight = 390;
+constexpr const char *kInk = "#22222a", *kGrid = "#e2e2e8";
+constexpr double kMark = 5, kRing = 8;
+constexpr double kManyDecades = 3;  ///< beyond, ticks are powers of ten alone
 
 /// A logarithmic axis between two places of the drawing.
 struct Axis {
@@ -19,13 +21,18 @@ struct Axis {
   double at(double value) const {
     return from + (to - from) * std::log(value / low) / std::log(high / low);
   }
-  /// 1, 2 and 5 times powers of ten.
+  /// 1, 2 and 5 times powers of ten; fewer where there would be too many.
   std::vector<double> ticks() const {
+    const double decades = std::log10(high / low);
+    const int step = static_cast<int>(std::ceil(decades / 9));
     std::vector<double> values;
-    for (int power = std::floor(std::log10(low)); power <= std::ceil(std::log10(high)); ++power)
-      for (double digit : {1., 2., 5.})
+    for (int power = static_cast<int>(std::floor(std::log10(low)));
+         power <= std::ceil(std::log10(high)); ++power)
+      for (double digit : {1., 2., 5.}) {
+        if (decades > kManyDecades && (digit > 1 || power % step != 0)) continue;
         if (const double value = digit * std::pow(10, power); value >= low && value <= high)
           values.push_back(value);
+      }
     return values;
   }
 };
@@ -37,65 +44,88 @@ Axis axisOf(const std::vector<Series>& all, bool isX, double from, double to) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
-  return {low / 1.2, high * 1.2, from, to};
+  if (!(high > 0)) low = high = 1;
+  const double margin = std::max(1.2, std::pow(high / low, 0.05));
+  return {low / margin, high * margin, from, to};
 }
 
-void drawAxes(std::ostream& out, const Axis& x, const Axis& y, const std::string& xLabel,
-              const std::string& yLabel) {
-  for (double value : x.ticks())
-    out << "<line class=\"grid\" x1=\"" << x.at(value) << "\" x2=\"" << x.at(value) << "\" y1=\""
-        << kTop << "\" y2=\"" << kBottom << "\"/><text x=\"" << x.at(value) << "\" y=\""
-        << kBottom + 20 << "\" text-anchor=\"middle\">" << number(value) << "</text>\n";
-  for (double value : y.ticks())
-    out << "<line class=\"grid\" x1=\"" << kLeft << "\" x2=\"" << kRight << "\" y1=\""
-        << y.at(value) << "\" y2=\"" << y.at(value) << "\"/><text x=\"" << kLeft - 8 << "\" y=\""
-        << y.at(value) + 4 << "\" text-anchor=\"end\">" << number(value) << "</text>\n";
-  out << "<rect x=\"" << kLeft << "\" y=\"" << kTop << "\" width=\"" << kRight - kLeft
-      << "\" height=\"" << kBottom - kTop << "\" fill=\"none\" stroke=\"#22222a\"/>\n"
-      << "<text x=\"" << (kLeft + kRight) / 2 << "\" y=\"" << kBottom + 46
-      << "\" text-anchor=\"middle\">" << escaped(xLabel) << "</text>\n"
-      << "<text transform=\"translate(18 " << (kTop + kBottom) / 2
-      << ") rotate(-90)\" text-anchor=\"middle\">" << escaped(yLabel) << "</text>\n";
-}
-
-void drawSeries(std::ostream& out, const Series& series, const Axis& x, const Axis& y) {
-  if (series.isLine) {
-    out << "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"" << series.colour
-        << "\" points=\"";
-    for (std::size_t i = 0; i < series.x.size(); ++i)
-      out << x.at(series.x[i]) << "," << y.at(series.y[i]) << " ";
-    out << "\"/>\n";
-    return;
+void addAxes(Drawing& drawing, const Axis& x, const Axis& y, const LogarithmicPlot& plot) {
+  using Anchor = Drawing::Anchor;
+  for (double value : x.ticks()) {
+    drawing.lines.push_back({{{x.at(value), y.from}, {x.at(value), y.to}}, kGrid});
+    drawing.labels.push_back({x.at(value), y.from + 20, number(value), Anchor::Middle});
   }
-  for (std::size_t i = 0; i < series.x.size(); ++i)
-    out << "<circle r=\"5\" fill=\"" << series.colour << "\" cx=\"" << x.at(series.x[i])
-        << "\" cy=\"" << y.at(series.y[i]) << "\"/>\n";
+  for (double value : y.ticks()) {
+    drawing.lines.push_back({{{x.from, y.at(value)}, {x.to, y.at(value)}}, kGrid});
+    drawing.labels.push_back({x.from - 8, y.at(value) + 4, number(value), Anchor::End});
+  }
+  drawing.lines.push_back(
+      {{{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}, {x.from, y.from}}, kInk});
+  const double middle = (x.from + x.to) / 2;
+  drawing.labels.push_back({middle, y.from + 44, plot.xLabel, Anchor::Middle});
+  drawing.labels.push_back(
+      {x.from - 64, (y.from + y.to) / 2, plot.yLabel, Anchor::Middle, 13, true});
+  if (!plot.title.empty())
+    drawing.labels.push_back({middle, y.to - 12, plot.title, Anchor::Middle, 15});
+}
+
+Drawing::Mark markOf(const Series& series, std::size_t i, double x, double y) {
+  if (series.style == Series::Style::Rings) return {x, y, kRing, series.colour, true};
+  return {x, y, kMark, series.colour, !series.isHollow.empty() && series.isHollow[i]};
+}
+
+bool hasLine(const Series& series) {
+  return series.style == Series::Style::Line || series.style == Series::Style::Joined ||
+         series.style == Series::Style::Dashed;
+}
+
+bool hasMarks(const Series& series) {
+  return series.style != Series::Style::Line && series.style != Series::Style::Dashed;
+}
+
+void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis& y) {
+  const bool isDashed = series.style == Series::Style::Dashed;
+  Drawing::Line line{{}, series.colour, 1.5, isDashed};
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const double px = x.at(series.x[i]), py = y.at(series.y[i]);
+    line.points.push_back({px, py});
+    if (hasMarks(series)) drawing.marks.push_back(markOf(series, i, px, py));
+    if (!series.notes.empty())
+      drawing.labels.push_back({px + 9, py - 7, series.notes[i], Drawing::Anchor::Start, 11});
+  }
+  if (hasLine(series)) drawing.lines.push_back(line);
 }
 
 }  // namespace
 
-std::string logarithmicPlot(const std::vector<Series>& all, const std::string& xLabel,
-                            const std::string& yLabel) {
-  const Axis x = axisOf(all, true, kLeft, kRight), y = axisOf(all, false, kBottom, kTop);
-  std::ostringstream out;
-  out << "<svg viewBox=\"0 0 " << kWidth << " " << kHeight << "\" width=\"" << kWidth
-      << "\" role=\"img\" aria-label=\"" << escaped(yLabel) << " over " << escaped(xLabel)
-      << "\">\n<style>svg text { font: 13px system-ui, sans-serif; fill: #22222a; } "
-         ".grid { stroke: #e2e2e8; }</style>\n";
-  drawAxes(out, x, y, xLabel, yLabel);
-  double row = kTop + 10;
-  for (const Series& series : all) {
-    drawSeries(out, series, x, y);
-    if (series.isLine)
-      out << "<line x1=\"512\" x2=\"528\" y1=\"" << row << "\" y2=\"" << row
-          << "\" stroke-width=\"1.5\" stroke=\"" << series.colour << "\"/>";
-    else
-      out << "<circle r=\"5\" cx=\"520\" cy=\"" << row << "\" fill=\"" << series.colour << "\"/>";
-    out << "<text x=\"536\" y=\"" << row + 4 << "\">" << escaped(series.name) << "</text>\n";
-    row += 24;
+void addPlot(Drawing& drawing, const LogarithmicPlot& plot, double left, double top) {
+  const Axis x = axisOf(plot.series, true, left + 84, left + plot.width - plot.legendWidth);
+  const Axis y = axisOf(plot.series, false, top + plot.height - 60, top + 34);
+  addAxes(drawing, x, y, plot);
+  double row = y.to + 10;
+  for (const Series& series : plot.series) {
+    addSeries(drawing, series, x, y);
+    if (series.name.empty()) continue;
+    if (hasLine(series))
+      drawing.lines.push_back({{{x.to + 12, row}, {x.to + 32, row}},
+                               series.colour,
+                               1.5,
+                               series.style == Series::Style::Dashed});
+    if (hasMarks(series)) {
+      drawing.marks.push_back(markOf(series, 0, x.to + 22, row));
+      if (!series.isHollow.empty()) drawing.marks.back().isHollow = false;
+    }
+    drawing.labels.push_back({x.to + 40, row + 4, series.name});
+    row += 22;
   }
-  out << "</svg>\n";
-  return out.str();
 }
 
-}  // namespace palpate::app::html
+std::string inlineSvg(const LogarithmicPlot& plot) {
+  Drawing drawing;
+  drawing.width = plot.width;
+  drawing.height = plot.height;
+  addPlot(drawing, plot, 0, 0);
+  return svgOf(drawing, plot.yLabel + " over " + plot.xLabel, false);
+}
+
+}  // namespace palpate::app

@@ -14,6 +14,7 @@
 #include "mesh/surface_mesh.h"
 #include "picture/picture.h"
 #include "report/html.h"
+#include "report/plot.h"
 #include "report/stiffness_study.h"
 #include "report/temporary_picture.h"
 
@@ -253,8 +254,8 @@ std::string pointTable(const StiffnessStudy& study) {
 std::string lawText(const StiffnessStudy& study) {
   if (!study.hasLaw) return {};
   const PointSingularity& law = study.law;
-  html::Series single{"single vertex", "#440154", {}, {}}, masked{"masked", "#21918c", {}, {}},
-      fit{"b + c/h", "#440154", {}, {}, true};
+  Series single{"single vertex", "#440154", {}, {}}, masked{"masked", "#21918c", {}, {}},
+      fit{"b + c/h", "#440154", {}, {}, Series::Style::Line};
   double low = 1e300, high = 0;
   for (const PointSample& point : study.points) {
     single.x.push_back(point.size);
@@ -270,7 +271,7 @@ std::string lawText(const StiffnessStudy& study) {
     fit.x.push_back(h);
     fit.y.push_back(y);
   }
-  std::vector<html::Series> all{single, masked};
+  std::vector<Series> all{single, masked};
   if (fit.x.size() > 1) all.push_back(fit);
   return "<p>The compliance of a single vertex grows like h<sup>−" + number(law.exponent, 3) +
          "</sup> (R² " + number(law.exponentFit, 4) +
@@ -278,7 +279,7 @@ std::string lawText(const StiffnessStudy& study) {
          "the point's own, b = " +
          number(law.body, 3) + " m/N, c = " + number(law.coefficient, 3) + " m²/N (R² " +
          number(law.fit, 4) + "). An ideal point load has the exponent 1.</p>\n<figure>" +
-         html::logarithmicPlot(all, "h, root of the vertex's area (m)", "compliance (m/N)") +
+         inlineSvg({"", "h, root of the vertex's area (m)", "compliance (m/N)", all}) +
          "<figcaption>Compliance at the point over the size of the vertex that is "
          "loaded.</figcaption>"
          "</figure>\n";

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include "accuracy/accuracy_study.h"
+#include "commands.h"
+#include "terminal.h"
+#include "whole_file.h"
+
+namespace palpate::app {
+namespace {
+
+struct Options {
+  AccuracyOptions study;
+  std::string report, csv, svg, image;
+};
+
+void addFiles(CLI::App& command, Options& o) {
+  requireWritable(
+      command.add_option("--report", o.report,
+                         "The page, .html; table and plot go beside it as .csv and .svg"),
+      "reports", ".html");
+  requireWritable(command.add_option("--csv", o.csv, "The table alone"), "tables", ".csv");
+  requireWritable(command.add_option("--svg", o.svg, "The plot alone"), "plots", ".svg");
+  requireWritable(
+      command.add_option("--image", o.image, "The plot as a PNG file; needs no display"),
+      "pictures", ".png");
+}
+
+void addQuestion(CLI::App& command, AccuracyOptions& o) {
+  command
+      .add_option("input", o.input,
+                  "A surface with support and material; a model counts as its surface")
+      ->required();
+  command
+      .add_option("--query", o.query,
+                  "compliance under a mask at points, greens (displacement of the whole surface) "
+                  "or force (on a ball that is pressed in)")
+      ->check(CLI::IsMember({"compliance", "greens", "force"}))
+      ->capture_default_str();
+  command
+      .add_option("--at", o.points,
+                  "A point of the surface, three numbers; may be repeated. By default four that "
+                  "are spread over it")
+      ->type_size(3)
+      ->take_all();
+  command
+      .add_option("--radius", o.radius,
+                  "Radius of the mask; by default a mean edge of the surface as it is")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--ball-radius", o.ballRadius, "Of --query force; by default the mask's")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--depth", o.depth,
+                  "How deep the ball is pressed; by default a tenth of its radius")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--reference", o.reference,
+                  "finest (Richardson extrapolation), kelvin (a point source's exact field, of "
+                  "--query greens), or a CSV file: x,y,z and nine compliances a line, cxx,cxy,...")
+      ->capture_default_str();
+}
+
+void addSweep(CLI::App& command, AccuracyOptions& o) {
+  command.add_option("--levels", o.levels, "Levels of the surface, 1 as it is")
+      ->check(CLI::Range(1, 9))
+      ->capture_default_str();
+  command
+      .add_option("--subdivision", o.subdivision,
+                  "loop, or flat: levels keep the shape and its sharp edges")
+      ->check(CLI::IsMember({"loop", "flat"}))
+      ->capture_default_str();
+  command
+      .add_option("--base-level", o.baseLevel,
+                  "Level on which the other knobs are varied; by default the last but one")
+      ->check(CLI::Range(1, 9));
+  command.add_option(
+      "--knobs", o.knobs,
+      "What is varied: level, tolerance, solver, collocation, combined, reciprocity, edges, "
+      "storage, columns, rows, mask, contact; by default all that the query has");
+  command.add_option("--repeats", o.repeats, "Runs of every setting, in turn")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--budget", o.budget,
+                  "Seconds after which a setting is not repeated beyond twice")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--clock", o.clock, "wall, or the processor time of all threads: cpu")
+      ->check(CLI::IsMember({"wall", "cpu"}))
+      ->capture_default_str();
+  command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+}
+
+void printResult(const TrialResult& result) {
+  const std::string label =
+      "  " + result.trial.value + ", level " + std::to_string(result.trial.setting.level);
+  if (!result.failure.empty()) {
+    printRow(label, result.failure);
+    return;
+  }
+  char text[160];
+  std::snprintf(
+      text, sizeof text, "%9.3g %%%s %9.3g s (%.3g to %.3g, %d runs) %8.3g MB%s",
+      100 * result.error, result.isBelowCertainty() ? "?" : " ", result.time().median,
+      result.time().lower, result.time().upper, result.runs,
+      static_cast<double>(result.trial.isPrecompute ? result.peakBytes : result.storedBytes) / 1e6,
+      result.isOnFront ? "  front" : "");
+  printRow(label, text);
+}
+
+void printStudy(const AccuracyStudy& study) {
+  printRow("error of", study.error);
+  printRow("against", study.reference);
+  if (study.uncertainty > 0)
+    printRow("uncertainty of that",
+             number(100 * study.uncertainty, 3) + " % (? marks errors below)");
+  for (const auto& point : study.points) printRow("point", vectorText(point.data()));
+  printRow("mask radius", number(study.radius));
+  if (study.query == QueryKind::Force) {
+    printRow("ball's radius", number(study.ballRadius));
+    printRow("ball's depth", number(study.depth));
+  }
+  std::string knob;
+  for (const TrialResult& result : study.results) {
+    if (result.trial.knob != knob)
+      printRow(result.trial.knob,
+               std::string("error, seconds to ") +
+                   (result.trial.isPrecompute ? "precompute, peak" : "query, stored"));
+    knob = result.trial.knob;
+    printResult(result);
+  }
+}
+
+/// Files by their names, all made before the first is written.
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+void writeStudy(const AccuracyStudy& study, const Options& o) {
+  Files files{{o.csv, accuracyCsv(study)}, {o.svg, accuracySvg(study, true)}};
+  if (!o.report.empty()) {
+    const auto beside = [&](const char* ending) {
+      return std::filesystem::path(o.report).replace_extension(ending).string();
+    };
+    files.emplace_back(beside(".csv"), accuracyCsv(study));
+    files.emplace_back(beside(".svg"), accuracySvg(study, true));
+    files.emplace_back(o.report, accuracyPage(study));
+  }
+  if (!o.image.empty()) drawAccuracy(study, o.image);
+  for (const auto& [path, text] : files)
+    if (!path.empty()) writeWholeFile(path, [&text = text](std::ostream& file) { file << text; });
+}
+
+}  // namespace
+
+void addAccuracy(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "What accuracy costs: error against time of every knob, for a query on a body");
+  addQuestion(*command, options->study);
+  addSweep(*command, options->study);
+  options->study.support.addTo(*command);
+  addFiles(*command, *options);
+  command->footer(
+      "Settings are run in turn, over and over, so that a machine that slows down biases none.\n"
+      "  palpate accuracy data/kidney.vtp --levels 1 2 3 --report kidney_accuracy.html\n"
+      "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat");
+  command->callback([options] {
+    const AccuracyStudy study = studyAccuracy(options->study);
+    writeStudy(study, *options);
+    printStudy(study);
+  });
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <cmath>
+
+#include "accuracy/accuracy_study.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+/// A number in full, nothing for none.
+std::string field(double value) {
+  return "," + (std::isnan(value) ? std::string() : number(value, 9));
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+}  // namespace
+
+std::string accuracyCsv(const AccuracyStudy& study) {
+  std::string text =
+      "knob,value,level,vertices,columns,stage,error,below_certainty,reference_uncertainty,"
+      "knob_error,pareto_front,precompute_s,precompute_s_lower_quartile,"
+      "precompute_s_upper_quartile,query_s,query_s_lower_quartile,query_s_upper_quartile,runs,"
+      "peak_bytes,stored_bytes,clock,reference,failure\n";
+  for (const TrialResult& result : study.results) {
+    const bool isDone = result.failure.empty();
+    const auto ifDone = [&](double value) { return field(isDone ? value : std::nan("")); };
+    text += quoted(result.trial.knob) + "," + quoted(result.trial.value) + "," +
+            std::to_string(result.trial.setting.level) + "," + std::to_string(result.vertices) +
+            "," + std::to_string(result.columns) + "," +
+            (result.trial.isPrecompute ? "precompute" : "query") + field(result.error) + "," +
+            (isDone && result.isBelowCertainty() ? "1" : "0") + ifDone(result.uncertainty) +
+            field(result.knobError) + "," + (result.isOnFront ? "1" : "0");
+    for (const Quartiles& time : {result.precompute, result.query})
+      for (double seconds : {time.median, time.lower, time.upper}) text += ifDone(seconds);
+    text += "," + std::to_string(result.runs) + "," + std::to_string(result.peakBytes) + "," +
+            std::to_string(result.storedBytes) + "," + study.clock + "," + quoted(study.reference) +
+            "," + quoted(result.failure) + "\n";
+  }
+  return text;
+}
+
+}  // namespace palpate::app

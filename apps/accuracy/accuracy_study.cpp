@@ -1,0 +1,307 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "accuracy/accuracy_study.h"
+
+#include <read_surface.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkReferenceBoundaryConditions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "accuracy/knobs.h"
+#include "accuracy/pareto_front.h"
+#include "accuracy/reference.h"
+#include "accuracy/sweep.h"
+#include "progress_bar.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+constexpr int kSpreadPoints = 4;
+constexpr double kSourceDistance = 0.75;  ///< diagonals of the body from its middle
+
+vtkSmartPointer<vtkPolyData> surfaceOf(const AccuracyOptions& options) {
+  vtkNew<vtkReferenceBoundaryConditions> conditions;
+  conditions->SetInputData(readSurface(options.input));
+  options.support.applyTo(conditions);
+  return run(conditions);
+}
+
+/// Free vertices of the first level far from the support and from each other, as points of the
+/// finest.
+std::vector<SurfacePoint> spreadPoints(const BodyLevels& body) {
+  const Eigen::Matrix3Xd& places = body.mesh(1).points();
+  std::vector<int> taken = body.conditions(1).fixedNodes();
+  const std::vector<int> free = body.conditions(1).freeNodes();
+  const SurfaceMesh& finest = body.mesh(body.count());
+  std::vector<SurfacePoint> points;
+  while (points.size() < kSpreadPoints && points.size() < free.size()) {
+    int farthest = free.front();
+    double most = -1;
+    for (int v : free) {
+      double away = std::numeric_limits<double>::infinity();
+      for (int w : taken) away = std::min(away, (places.col(v) - places.col(w)).norm());
+      if (away > most) {
+        most = away;
+        farthest = v;
+      }
+    }
+    taken.push_back(farthest);
+    const int triangle = *finest.trianglesOfVertex(farthest).begin();
+    SurfacePoint point{triangle, Eigen::Vector3d::Zero()};
+    for (int k = 0; k < 3; ++k) point.barycentric[k] = finest.triangles()(k, triangle) == farthest;
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// @param places  x y z of each.
+/// @throws std::invalid_argument for a place that is farther from the finest level than the first
+///         level's edges are long.
+std::vector<SurfacePoint> pointsAt(const BodyLevels& body, const std::vector<double>& places) {
+  const SurfaceMesh& finest = body.mesh(body.count());
+  std::vector<SurfacePoint> points;
+  for (std::size_t i = 0; i + 2 < places.size(); i += 3) {
+    const Eigen::Vector3d place(places[i], places[i + 1], places[i + 2]);
+    if (!place.allFinite()) throw std::invalid_argument("a point must be three finite numbers");
+    points.push_back(nearestSurfacePoint(finest, place));
+    const double away = (placeOf(finest, points.back()) - place).norm();
+    if (away > body.mesh(1).meanEdgeLength())
+      throw std::invalid_argument("the point " + vectorText(place.data()) + " is " + number(away) +
+                                  " off the surface, farther than its mean edge of " +
+                                  number(body.mesh(1).meanEdgeLength()) +
+                                  ": are both in the same unit?");
+  }
+  return points;
+}
+
+QueryKind kindOf(const std::string& query) {
+  return query == "greens"  ? QueryKind::Greens
+         : query == "force" ? QueryKind::Force
+                            : QueryKind::Compliance;
+}
+
+/// The knobs that are varied, checked.
+std::vector<std::string> chosenKnobs(const AccuracyOptions& options, bool hasSharpEdges) {
+  const bool isKelvin = options.reference == "kelvin";
+  const bool isFile = options.reference != "finest" && !isKelvin;
+  std::vector<std::string> known = knobsOf(kindOf(options.query), isKelvin);
+  if (isFile) known.erase(std::remove(known.begin(), known.end(), "mask"), known.end());
+  std::string list;
+  for (const std::string& knob : known) list += (list.empty() ? "" : ", ") + knob;
+  for (const std::string& knob : options.knobs)
+    if (std::find(known.begin(), known.end(), knob) == known.end())
+      throw std::invalid_argument("there is no knob '" + knob + "' of the query " + options.query +
+                                  " against the reference " + options.reference +
+                                  ": choose some of " + list);
+  if (!options.knobs.empty()) return options.knobs;
+  if (!hasSharpEdges) known.erase(std::remove(known.begin(), known.end(), "edges"), known.end());
+  return known;
+}
+
+void requireSensible(const AccuracyOptions& options) {
+  if (options.reference == "kelvin" && options.query != "greens")
+    throw std::invalid_argument(
+        "a point source's field is known on the whole surface: the reference kelvin is one of "
+        "`--query greens`");
+  const bool isFile = options.reference != "finest" && options.reference != "kelvin";
+  if (!isFile) return;
+  if (options.query != "compliance")
+    throw std::invalid_argument("the file " + options.reference +
+                                " gives compliances: it is a reference of `--query compliance`");
+  if (!options.points.empty())
+    throw std::invalid_argument("the points are those of the file " + options.reference +
+                                ": leave --at out");
+  if (options.radius == 0)
+    throw std::invalid_argument("say by --radius under which mask the compliances of " +
+                                options.reference + " are");
+}
+
+/// Everything on the way from options to results.
+class AccuracyRun {
+ public:
+  explicit AccuracyRun(const AccuracyOptions& options)
+      : options_(options),
+        levels_(options.levels),
+        body_(surfaceOf(options), *std::max_element(levels_.begin(), levels_.end()),
+              options.subdivision),
+        progress_([](double fraction, const char* stage) {
+          drawProgress(fraction, stage);
+          return !isInterrupted();
+        }) {
+    std::sort(levels_.begin(), levels_.end());
+    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    readPoints();
+    setQuery();
+    setBase();
+  }
+
+  AccuracyStudy run() {
+    bool hasSharpEdges = false;
+    for (int level : levels_) hasSharpEdges = hasSharpEdges || body_.hasSharpEdges(level);
+    const std::vector<Trial> trials =
+        trialsOf(chosenKnobs(options_, hasSharpEdges), base_, levels_, body_);
+    const Reference reference = this->reference(trials);
+    std::vector<Setting> settings;
+    for (const Trial& trial : trials) {
+      settings.push_back(trial.setting);
+      if (trial.best) settings.push_back(*trial.best);
+    }
+    const Sweep sweep(
+        body_, *query_, settings,
+        {options_.repeats, options_.threads, options_.budget, options_.clock == "cpu"},
+        progress_.part(kReferenceShare, 1));
+    endProgressBar();
+    AccuracyStudy study = described(reference);
+    for (const Trial& trial : trials) study.results.push_back(resultOf(trial, sweep, reference));
+    for (bool isPrecompute : {true, false}) markFront(study.results, isPrecompute);
+    return study;
+  }
+
+ private:
+  static constexpr double kReferenceShare = 0.2;  ///< of the time, for the progress display
+
+  void readPoints() {
+    std::vector<double> places = options_.points;
+    if (options_.reference != "finest" && options_.reference != "kelvin") {
+      table_ = readCompliances(options_.reference);
+      places = table_.points;
+    }
+    for (const SurfacePoint& point : places.empty() ? spreadPoints(body_) : pointsAt(body_, places))
+      points_.push_back(body_.ancestors(point));
+  }
+
+  void setQuery() {
+    const double edge = body_.mesh(1).meanEdgeLength();
+    radius_ = options_.radius > 0 ? options_.radius : edge;
+    ballRadius_ = options_.ballRadius > 0 ? options_.ballRadius : radius_;
+    depth_ = options_.depth > 0 ? options_.depth : 0.1 * ballRadius_;
+    const SurfaceMesh& finest = body_.mesh(body_.count());
+    const Eigen::Vector3d middle =
+        0.5 * (finest.points().rowwise().minCoeff() + finest.points().rowwise().maxCoeff());
+    const Eigen::Vector3d outwards =
+        (placeOf(finest, points_.front().back()) - middle).normalized();
+    source_ = middle + kSourceDistance * finest.diagonal() * outwards;
+    switch (kindOf(options_.query)) {
+      case QueryKind::Compliance:
+        query_ = complianceQuery(body_, points_);
+        break;
+      case QueryKind::Greens:
+        query_ = isKelvin() ? pointSourceQuery(body_, source_) : surfaceQuery(body_, points_);
+        break;
+      case QueryKind::Force:
+        query_ = forceQuery(body_, points_, ballRadius_, depth_);
+    }
+  }
+
+  void setBase() {
+    const std::size_t last = levels_.size() - 1;
+    base_.level = options_.baseLevel > 0 ? options_.baseLevel : levels_[last > 0 ? last - 1 : 0];
+    if (base_.level > body_.count())
+      throw std::invalid_argument("--base-level is one of --levels: there is no level " +
+                                  std::to_string(base_.level));
+    base_.radius = radius_;
+    base_.reciprocal = !isKelvin();
+  }
+
+  bool isKelvin() const { return options_.reference == "kelvin"; }
+
+  Reference reference(const std::vector<Trial>& trials) const {
+    if (isKelvin())
+      return Reference::exact("exact field of a point force at " + vectorText(source_.data()) +
+                              " outside the body (Kelvin)");
+    if (options_.reference != "finest")
+      return Reference::given("compliances of " + options_.reference, table_.values);
+    std::set<double> radii{base_.radius};
+    for (const Trial& trial : trials) radii.insert(trial.setting.radius);
+    return Reference::finest(body_, *query_, base_, {radii.begin(), radii.end()}, options_.threads,
+                             progress_.part(0, kReferenceShare));
+  }
+
+  AccuracyStudy described(const Reference& reference) const {
+    AccuracyStudy study;
+    study.body = std::filesystem::path(options_.input).stem().string();
+    study.reference = reference.name();
+    study.error = query_->description();
+    study.query = kindOf(options_.query);
+    for (const LevelledPoint& point : points_) {
+      const Eigen::Vector3d place = placeOf(body_.mesh(body_.count()), point.back());
+      study.points.push_back({place.x(), place.y(), place.z()});
+    }
+    study.radius = radius_;
+    study.ballRadius = ballRadius_;
+    study.depth = depth_;
+    study.uncertainty = reference.uncertainty(base_);
+    study.baseLevel = base_.level;
+    study.clock = options_.clock;
+    return study;
+  }
+
+  TrialResult resultOf(const Trial& trial, const Sweep& sweep, const Reference& reference) const {
+    const Sample& sample = sweep.of(trial.setting);
+    TrialResult result;
+    result.trial = trial;
+    result.vertices = body_.mesh(trial.setting.level).vertexCount();
+    result.failure = sample.failure;
+    result.knobError = result.error = std::nan("");
+    if (!sample.failure.empty()) return result;
+    result.columns = sample.columns;
+    result.runs = static_cast<int>(sample.querySeconds.size());
+    result.error = reference.errorOf(sample.answer, trial.setting);
+    result.uncertainty = reference.uncertainty(trial.setting);
+    if (trial.best && sweep.of(*trial.best).failure.empty())
+      result.knobError =
+          relativeError(sample.answer, sample.answer.values, sweep.of(*trial.best).answer.values);
+    result.precompute = quartilesOf(sample.precomputeSeconds);
+    result.query = quartilesOf(sample.querySeconds);
+    result.peakBytes = sample.peakBytes;
+    result.storedBytes = sample.storedBytes;
+    return result;
+  }
+
+  /// Of the trials whose time is that of one stage. What the reference cannot tell from the truth
+  /// counts as its uncertainty.
+  static void markFront(std::vector<TrialResult>& results, bool isPrecompute) {
+    std::vector<double> times, errors;
+    for (const TrialResult& result : results) {
+      const bool isOfStage = result.trial.isPrecompute == isPrecompute && result.failure.empty();
+      times.push_back(isOfStage ? result.time().median : std::nan(""));
+      errors.push_back(std::max(result.error, result.uncertainty));
+    }
+    const std::vector<bool> front = paretoFront(times, errors);
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (front[i]) results[i].isOnFront = true;
+  }
+
+  AccuracyOptions options_;
+  std::vector<int> levels_;
+  BodyLevels body_;
+  Progress progress_;
+  ComplianceTable table_;
+  std::vector<LevelledPoint> points_;
+  double radius_ = 0, ballRadius_ = 0, depth_ = 0;
+  Eigen::Vector3d source_ = Eigen::Vector3d::Zero();
+  std::unique_ptr<const Query> query_;
+  Setting base_;
+};
+
+}  // namespace
+
+AccuracyStudy studyAccuracy(const AccuracyOptions& options) {
+  requireSensible(options);
+  try {
+    return AccuracyRun(options).run();
+  } catch (const Aborted&) {
+    throw std::runtime_error("interrupted; nothing was written");
+  }
+}
+
+}  // namespace palpate::app

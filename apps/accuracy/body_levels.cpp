@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "accuracy/body_levels.h"
+
+#include <conversion.h>
+#include <model_arrays.h>
+
+#include "mesh/smooth_patches.h"
+
+namespace palpate::app {
+namespace {
+
+constexpr double kSmoothAngle = 30;  // degrees, as `precompute` takes it
+
+}  // namespace
+
+BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const std::string& subdivision) {
+  const ElasticModel first = convert::modelOf(surface, kSmoothAngle, Domain::Interior);
+  const bool isGiven = convert::hasGivenPatches(surface, first.mesh());
+  material_ = first.material();
+  levels_.push_back(
+      {std::make_shared<SurfaceMesh>(first.mesh()), first.conditions(), first.smoothPatches(), {}});
+  while (count() < levels) {
+    const Level& coarse = levels_.back();
+    const Eigen::Matrix3Xd& points = coarse.mesh->points();
+    const Eigen::Matrix3Xi& triangles = coarse.mesh->triangles();
+    LoopLevel made =
+        subdivision == "flat" ? subdivideFlat(points, triangles) : subdivideLoop(points, triangles);
+    auto mesh = std::make_shared<SurfaceMesh>(std::move(made.points), made.triangles);
+    Eigen::VectorXi patches = findSmoothPatches(*mesh, kSmoothAngle);
+    for (int f = 0; isGiven && f < patches.size(); ++f)
+      patches[f] = coarse.patches[made.parentTriangle[f]];
+    const BoundaryConditions conditions(refineBoundaryTypes(made, coarse.conditions.types()));
+    levels_.push_back({mesh, conditions, patches, std::move(made)});
+  }
+}
+
+bool BodyLevels::hasSharpEdges(int level) const {
+  const SurfaceMesh& mesh = this->mesh(level);
+  const Eigen::VectorXi& patches = at(level).patches;
+  for (int v = 0; v < mesh.vertexCount(); ++v)
+    for (int f : mesh.trianglesOfVertex(v))
+      if (patches[f] != patches[*mesh.trianglesOfVertex(v).begin()]) return true;
+  return false;
+}
+
+ElasticModel BodyLevels::model(int level, bool onePatch) const {
+  const Level& found = at(level);
+  return ElasticModel(found.mesh, material_, found.conditions,
+                      onePatch ? Eigen::VectorXi::Zero(found.patches.size()) : found.patches);
+}
+
+std::vector<SurfacePoint> BodyLevels::ancestors(const SurfacePoint& finest) const {
+  std::vector<SurfacePoint> points{finest};
+  for (int level = count(); level > 1; --level)
+    points.insert(points.begin(),
+                  parentPoint(at(level).made, mesh(level - 1).triangles(), points.front()));
+  return points;
+}
+
+}  // namespace palpate::app

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mesh/flat_subdivision.h"
+#include "model/elastic_model.h"
+
+class vtkPolyData;
+
+namespace palpate::app {
+
+/// A body on a surface and its refinements. Level 1 is the surface as it is.
+class BodyLevels {
+ public:
+  /// @param surface      with boundary types, material and, if given, smooth patches.
+  /// @param subdivision  "loop", or "flat".
+  /// @throws std::invalid_argument with a sentence for a surface that cannot be used.
+  BodyLevels(vtkPolyData* surface, int levels, const std::string& subdivision);
+
+  int count() const { return static_cast<int>(levels_.size()); }
+  const SurfaceMesh& mesh(int level) const { return *at(level).mesh; }
+  const std::shared_ptr<const SurfaceMesh>& sharedMesh(int level) const { return at(level).mesh; }
+  const BoundaryConditions& conditions(int level) const { return at(level).conditions; }
+  const Material& material() const { return material_; }
+  /// Whether traction may jump somewhere.
+  bool hasSharpEdges(int level) const;
+  /// @param onePatch  as if the surface were smooth.
+  ElasticModel model(int level, bool onePatch) const;
+
+  /// The points of all levels that a point of the finest descends from, the first of level 1.
+  std::vector<SurfacePoint> ancestors(const SurfacePoint& finest) const;
+
+ private:
+  struct Level {
+    std::shared_ptr<const SurfaceMesh> mesh;
+    BoundaryConditions conditions;
+    Eigen::VectorXi patches;
+    LoopLevel made;  ///< of the level before, without points
+  };
+  const Level& at(int level) const { return levels_.at(level - 1); }
+
+  Material material_{1, 0};
+  std::vector<Level> levels_;
+};
+
+}  // namespace palpate::app

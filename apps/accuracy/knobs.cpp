@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "accuracy/knobs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+const char* const kPrecisions[] = {"double", "mixed", "float"};
+const char* const kRows[] = {"contact", "visible", "all"};
+
+/// Adds the trials of one knob.
+class Knobs {
+ public:
+  Knobs(const Setting& base, const std::vector<int>& levels, const BodyLevels& body)
+      : base_(base), levels_(levels), body_(body) {}
+
+  void add(const std::string& knob) {
+    static const std::map<std::string, void (Knobs::*)()> ways{
+        {"level", &Knobs::addLevels},
+        {"tolerance", &Knobs::addTolerances},
+        {"solver", &Knobs::addSolvers},
+        {"storage", &Knobs::addStorages},
+        {"columns", &Knobs::addColumns},
+        {"rows", &Knobs::addRows},
+        {"mask", &Knobs::addMasks},
+        {"contact", &Knobs::addContacts},
+        {"collocation", &Knobs::addCollocations},
+        {"edges", &Knobs::addEdges},
+        {"reciprocity", &Knobs::addReciprocities},
+        {"combined", &Knobs::addCombined}};
+    knob_ = knob;
+    (this->*ways.at(knob))();
+  }
+
+  std::vector<Trial> take() { return std::move(trials_); }
+
+ private:
+  /// @param best  NaN-like: none.
+  void add(const std::string& value, const Setting& setting, bool isPrecompute,
+           std::optional<Setting> best = {}, const std::string& series = {}) {
+    trials_.push_back({knob_, value, series.empty() ? knob_ : series, setting, isPrecompute, best});
+  }
+
+  /// One trial a level of what `change` makes of the base.
+  template <class Change>
+  void addOnLevels(const std::string& value, const Change& change, bool hasBest) {
+    for (int level : levels_) {
+      Setting setting = base_;
+      setting.level = level;
+      const std::optional<Setting> best = hasBest ? std::optional(setting) : std::nullopt;
+      change(setting);
+      add(value, setting, true, best, knob_ + ": " + value);
+    }
+  }
+
+  void addLevels() {
+    for (int level : levels_) {
+      Setting setting = base_;
+      setting.level = level;
+      add(std::to_string(level), setting, true, {}, "level, all else as by default");
+    }
+  }
+
+  void addTolerances() {
+    Setting best = base_;
+    best.tolerance = 1e-8;
+    for (int exponent = 1; exponent <= 8; ++exponent) {
+      Setting setting = base_;
+      setting.tolerance = std::pow(10.0, -exponent);
+      add(number(setting.tolerance), setting, true, best);
+    }
+  }
+
+  void addSolvers() {
+    add("double", base_, true, base_, "level, all else as by default");
+    for (Precision precision : {Precision::Mixed, Precision::Float})
+      addOnLevels(
+          kPrecisions[static_cast<int>(precision)],
+          [&](Setting& setting) { setting.precision = precision; }, true);
+  }
+
+  void addStorages() {
+    for (bool isFloat : {false, true}) {
+      Setting setting = base_;
+      setting.floatStorage = isFloat;
+      add(isFloat ? "float" : "double", setting, false, base_);
+    }
+  }
+
+  void addColumns() {
+    Setting best = base_;
+    best.allColumns = true;
+    add("needed", base_, true, best);
+    add("all free", best, true, best);
+  }
+
+  void addRows() {
+    for (Rows rows : {Rows::Contact, Rows::Visible, Rows::All}) {
+      Setting setting = base_;
+      setting.rows = rows;
+      add(kRows[static_cast<int>(rows)], setting, false);
+    }
+  }
+
+  /// In edges of the base's level; half an edge is a single vertex there.
+  void addMasks() {
+    const double edge = body_.mesh(base_.level).meanEdgeLength();
+    for (double edges : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+      Setting setting = base_;
+      setting.radius = edges * edge;
+      add(number(edges) + (edges < 1 ? " edges (one vertex)" : " edges"), setting, false);
+    }
+  }
+
+  void addContacts() {
+    Setting best = base_;
+    best.contactTolerance = 1e-12;
+    for (int exponent = 1; exponent <= 12; ++exponent) {
+      Setting setting = base_;
+      setting.contactTolerance = std::pow(10.0, -exponent);
+      add(number(setting.contactTolerance), setting, false, best);
+    }
+  }
+
+  void addCollocations() {
+    addOnLevels(
+        "vertex", [](Setting& setting) { setting.collocation = Collocation::Vertex; }, false);
+  }
+
+  void addEdges() {
+    const std::size_t before = trials_.size();
+    for (int level : levels_) {
+      if (!body_.hasSharpEdges(level)) continue;
+      Setting setting = base_;
+      setting.level = level;
+      add("patches", setting, true, {}, "level, all else as by default");
+      setting.onePatch = true;
+      add("one traction a vertex", setting, true, {}, "edges: one traction a vertex");
+    }
+    if (trials_.size() == before)
+      throw std::invalid_argument(
+          "the surface has no sharp edge on any of the levels: there is nothing to vary by the "
+          "knob edges");
+  }
+
+  void addReciprocities() {
+    const bool other = !base_.reciprocal;
+    addOnLevels(
+        other ? "symmetrised" : "raw", [&](Setting& setting) { setting.reciprocal = other; },
+        false);
+  }
+
+  void addCombined() {
+    addOnLevels(
+        "vertex, float",
+        [](Setting& setting) {
+          setting.collocation = Collocation::Vertex;
+          setting.precision = Precision::Float;
+        },
+        false);
+  }
+
+  Setting base_;
+  std::vector<int> levels_;
+  const BodyLevels& body_;
+  std::string knob_;
+  std::vector<Trial> trials_;
+};
+
+}  // namespace
+
+std::vector<std::string> knobsOf(QueryKind query, bool isPointSource) {
+  std::vector<std::string> knobs{"level",    "tolerance",   "solver", "collocation",
+                                 "combined", "reciprocity", "edges",  "storage"};
+  if (!isPointSource) knobs.push_back("columns");
+  if (query == QueryKind::Compliance) {
+    knobs.push_back("rows");
+    knobs.push_back("mask");
+  }
+  if (query == QueryKind::Force) knobs.push_back("contact");
+  return knobs;
+}
+
+std::vector<Trial> trialsOf(const std::vector<std::string>& knobs, const Setting& base,
+                            const std::vector<int>& levels, const BodyLevels& body) {
+  Knobs all(base, levels, body);
+  for (const std::string& knob : knobs) all.add(knob);
+  return all.take();
+}
+
+}  // namespace palpate::app

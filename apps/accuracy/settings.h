@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bem/boundary_element_method.h"
+#include "contact/frictional_contact_solver.h"
+#include "support_options.h"
+
+namespace palpate::app {
+
+/// What is asked of a body's Green's functions.
+enum class QueryKind {
+  Compliance,  ///< 3 by 3 compliances under a mask at points
+  Greens,  ///< displacement of the whole surface under masked forces, or of a point source's field
+  Force,   ///< on a ball that is pressed in at points
+};
+
+/// Rows of which a query evaluates the deformation.
+enum class Rows { Contact, Visible, All };
+
+/// One way to an answer: a value of every knob.
+struct Setting {
+  // What the Green's functions are computed by.
+  int level = 1;
+  double tolerance = BoundaryElementOptions().tolerance;
+  Precision precision = Precision::Double;
+  Collocation collocation = Collocation::Averaged;
+  bool onePatch = false;    ///< one traction per vertex, as in [JP01], where patches meet
+  bool allColumns = false;  ///< all free nodes', or those that the query needs
+  bool reciprocal = true;
+  double radius = 0;  ///< of the mask, m
+  // What the query is made by.
+  bool floatStorage = false;
+  Rows rows = Rows::Contact;
+  double contactTolerance = ContactSolverSettings().tolerance;
+
+  /// Equal for settings that share their Green's functions.
+  auto precomputeKey() const {
+    return std::tuple(level, tolerance, precision, collocation, onePatch, allColumns, reciprocal,
+                      radius);
+  }
+  auto key() const {
+    return std::tuple_cat(precomputeKey(), std::tuple(floatStorage, rows, contactTolerance));
+  }
+};
+
+/// A value of a knob that is tried.
+struct Trial {
+  std::string knob, value;
+  std::string series;  ///< of the plot
+  Setting setting;
+  bool isPrecompute;  ///< whether the time that the knob changes is that of the Green's functions
+  std::optional<Setting> best;  ///< the knob at its most accurate, where it has such a value
+};
+
+/// What `palpate accuracy` is asked for.
+struct AccuracyOptions {
+  std::string input;
+  SupportOptions support;
+  std::string query = "compliance";
+  std::vector<double> points;        ///< x y z of each; empty: spread over the surface
+  double radius = 0;                 ///< m, 0 for a mean edge of the surface as it is
+  double ballRadius = 0, depth = 0;  ///< m, 0 for the mask's radius, and a tenth of the ball's
+  std::vector<int> levels{1, 2, 3};
+  int baseLevel = 0;               ///< of the knobs other than the level; 0 for the last but one
+  std::vector<std::string> knobs;  ///< empty: all that the query has
+  std::string reference = "finest";
+  std::string subdivision = "loop", clock = "wall";
+  int repeats = 5, threads = 0;
+  double budget = 60;  ///< s that a setting may take in all before it is not repeated any more
+};
+
+}  // namespace palpate::app

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "accuracy/sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace palpate::app {
+namespace {
+
+constexpr double kLeastTimed = 0.01;  ///< s: shorter queries are timed many at a time
+constexpr int kLeastRuns = 2;
+
+double wallSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+AlignedBuffer<float> rounded(const AlignedBuffer<double>& matrix, std::size_t count) {
+  AlignedBuffer<float> result(count);
+  std::copy_n(matrix.data(), count, result.data());
+  return result;
+}
+
+}  // namespace
+
+BoundaryElementResult computeGreens(const BodyLevels& body, const Query& query,
+                                    const Setting& setting, int threads,
+                                    const ProgressCallback& progress) {
+  BoundaryElementOptions options;
+  options.precision = setting.precision;
+  options.collocation = setting.collocation;
+  options.tolerance = setting.tolerance;
+  options.reciprocal = setting.reciprocal;
+  options.columns = query.columns(setting);
+  options.patchColumns = query.usesPatchColumns();
+  options.threads = threads;
+  return computeBoundaryElementGreensFunctions(body.model(setting.level, setting.onePatch), options,
+                                               progress);
+}
+
+Sweep::Sweep(const BodyLevels& body, const Query& query, const std::vector<Setting>& settings,
+             const SweepOptions& options, const Progress& progress)
+    : body_(body), query_(query), options_(options) {
+  double cost = 0;
+  for (const Setting& setting : settings) {
+    if (!samples_.try_emplace(setting.key()).second) continue;
+    Group& group = groups_[setting.precomputeKey()];
+    group.settings.push_back(setting);
+    group.cost = std::pow(body.mesh(setting.level).vertexCount(), 2.5);
+  }
+  for (const auto& group : groups_) cost += options.repeats * group.second.cost;
+  double done = 0;
+  for (int round = 0; round < options.repeats; ++round)
+    for (auto& [key, group] : groups_) {
+      const double share = group.cost / cost;
+      const bool isWithinBudget = group.spent * (round + 1) <= options.budget * round;
+      if (!group.hasFailed && (round < kLeastRuns || isWithinBudget))
+        runGroup(group, progress.part(done, done + share));
+      done += share;
+    }
+}
+
+double Sweep::now() const {
+  if (!options_.cpuClock) return wallSeconds();
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void Sweep::runGroup(Group& group, const Progress& progress) {
+  const auto report = [&](double fraction, const char* stage) {
+    progress.report(fraction, stage);
+    return true;
+  };
+  const Setting& first = group.settings.front();
+  const double wall = wallSeconds(), begun = now();
+  try {
+    BoundaryElementResult result = computeGreens(body_, query_, first, options_.threads, report);
+    const double seconds = now() - begun;
+    const std::size_t peakBytes = result.info.diagnostics.peakBytes;
+    const std::size_t rows = 3 * std::size_t(body_.mesh(first.level).vertexCount()),
+                      own = 3 * rows * result.info.columnNodes.size(),
+                      patch = 3 * rows * result.info.patchColumns.size();
+    Stored asFloat{nullptr, sizeof(float) * (own + patch)};
+    for (const Setting& setting : group.settings)
+      if (setting.floatStorage && !asFloat.greens)
+        asFloat.greens = std::make_shared<DenseGreensFunctions<float>>(
+            result.info, rounded(result.matrix, own), rounded(result.patchMatrix, patch));
+    const std::size_t bytes =
+        first.precision == Precision::Float ? asFloat.bytes : 2 * asFloat.bytes;
+    const Stored computed{result.take(), bytes};
+    for (const Setting& setting : group.settings) {
+      ask(setting, setting.floatStorage ? asFloat : computed, seconds);
+      samples_.at(setting.key()).peakBytes = peakBytes;
+    }
+  } catch (const Aborted&) {
+    throw;
+  } catch (const std::runtime_error& failure) {  // a setting that this body is too hard for
+    group.hasFailed = true;
+    for (const Setting& setting : group.settings)
+      samples_.at(setting.key()).failure = failure.what();
+  }
+  group.spent += wallSeconds() - wall;
+}
+
+void Sweep::ask(const Setting& setting, const Stored& stored, double seconds) {
+  Sample& sample = samples_.at(setting.key());
+  const auto query = query_.prepare(stored.greens, setting);
+  double begun = now();
+  query->evaluate();
+  const double once = now() - begun;
+  const int runs = static_cast<int>(std::clamp(kLeastTimed / std::max(once, 1e-9), 1.0, 1e5));
+  begun = now();
+  for (int run = 0; run < runs; ++run) query->evaluate();
+  sample.querySeconds.push_back((now() - begun) / runs);
+  sample.precomputeSeconds.push_back(seconds);
+  sample.answer = query->answer();
+  sample.storedBytes = stored.bytes;
+  sample.columns = stored.greens->columnCount();
+}
+
+}  // namespace palpate::app
