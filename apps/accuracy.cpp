@@ -79,10 +79,14 @@ void addSweep(CLI::App& command, AccuracyOptions& o) {
       .add_option("--base-level", o.baseLevel,
                   "Level on which the other knobs are varied; by default the last but one")
       ->check(CLI::Range(1, 9));
-  command.add_option(
-      "--knobs", o.knobs,
-      "What is varied: level, tolerance, solver, collocation, combined, reciprocity, edges, "
-      "storage, columns, rows, mask, contact; by default all that the query has");
+  command
+      .add_option("--reference-level", o.referenceLevel,
+                  "Finest level that `finest` extrapolates from; by default the last of --levels")
+      ->check(CLI::Range(1, 9));
+  command.add_option("--knobs", o.knobs,
+                     "What is varied: level, tolerance, solver, collocation, combined, "
+                     "reciprocity, edges, support, "
+                     "storage, columns, rows, mask, contact; by default all that the query has");
   command.add_option("--repeats", o.repeats, "Runs of every setting, in turn")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
@@ -121,10 +125,11 @@ void printStudy(const AccuracyStudy& study) {
     printRow("uncertainty of that",
              number(100 * study.uncertainty, 3) + " % (? marks errors below)");
   for (const auto& point : study.points) printRow("point", vectorText(point.data()));
-  printRow("mask radius", number(study.radius));
   if (study.query == QueryKind::Force) {
     printRow("ball's radius", number(study.ballRadius));
     printRow("ball's depth", number(study.depth));
+  } else if (!study.points.empty()) {
+    printRow("mask radius", number(study.radius));
   }
   std::string knob;
   for (const TrialResult& result : study.results) {

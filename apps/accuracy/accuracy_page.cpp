@@ -36,6 +36,9 @@ std::string meaningOf(const std::string& knob) {
       {"reciprocity", "The compliance symmetrised as it is served, or raw."},
       {"edges",
        "At sharp edges one traction a vertex and smooth patch, or one a vertex as in the paper."},
+      {"support",
+       "The support's triangles as smooth patches of their own, at whose rim its traction ends "
+       "sharply; else it fades over the next triangles."},
       {"storage", "Green's functions computed in double and stored as double or float."},
       {"columns", "Green's functions of the nodes that the query needs, or of all free nodes."},
       {"rows", "Rows of which the deformation is evaluated."},
@@ -76,7 +79,9 @@ std::string tableOf(const AccuracyStudy& study, const std::string& knob) {
 
 std::string questionText(const AccuracyStudy& study) {
   std::string text = "<p class=\"lead\">Error of the " + html::escaped(study.error) +
-                     ", against the " + html::escaped(study.reference) + ".</p>\n<ul>\n";
+                     ", against the " + html::escaped(study.reference) + ".</p>\n";
+  if (study.points.empty() && !(study.uncertainty > 0)) return text;
+  text += "<ul>\n";
   if (study.uncertainty > 0)
     text += "<li>That reference is uncertain by " + percent(study.uncertainty) +
             " itself; smaller errors are marked by ? and by hollow marks, and count as that much "

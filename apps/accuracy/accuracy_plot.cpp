@@ -31,7 +31,8 @@ std::vector<Series> seriesOf(const AccuracyStudy& study, bool isPrecompute) {
     auto found =
         std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.name == name; });
     if (found == all.end()) {
-      const char* colour = kColours[all.size() % (sizeof kColours / sizeof *kColours)];
+      const std::size_t shift = isPrecompute ? 0 : 6;  // knobs of two plots are not one
+      const char* colour = kColours[(all.size() + shift) % (sizeof kColours / sizeof *kColours)];
       found = all.insert(all.end(), {name, colour, {}, {}});
       found->style = isSequence(result) ? Series::Style::Joined : Series::Style::Marks;
     }

@@ -26,6 +26,7 @@ namespace palpate::app {
 namespace {
 
 constexpr int kSpreadPoints = 4;
+constexpr double kSupportWeight = 0.5;    ///< points keep twice as clear of it as of each other
 constexpr double kSourceDistance = 0.75;  ///< diagonals of the body from its middle
 
 vtkSmartPointer<vtkPolyData> surfaceOf(const AccuracyOptions& options) {
@@ -48,7 +49,9 @@ std::vector<SurfacePoint> spreadPoints(const BodyLevels& body) {
     double most = -1;
     for (int v : free) {
       double away = std::numeric_limits<double>::infinity();
-      for (int w : taken) away = std::min(away, (places.col(v) - places.col(w)).norm());
+      for (int w : taken)
+        away = std::min(away, (body.conditions(1).isFixed(w) ? kSupportWeight : 1) *
+                                  (places.col(v) - places.col(w)).norm());
       if (away > most) {
         most = away;
         farthest = v;
@@ -63,22 +66,25 @@ std::vector<SurfacePoint> spreadPoints(const BodyLevels& body) {
   return points;
 }
 
+/// The points of the finest level that are nearest to places.
 /// @param places  x y z of each.
-/// @throws std::invalid_argument for a place that is farther from the finest level than the first
-///         level's edges are long.
+/// @throws std::invalid_argument for a place that is off the surface as it is and off its finest
+///         level, by more than a quarter of the former's edges.
 std::vector<SurfacePoint> pointsAt(const BodyLevels& body, const std::vector<double>& places) {
-  const SurfaceMesh& finest = body.mesh(body.count());
+  const SurfaceMesh &first = body.mesh(1), &finest = body.mesh(body.count());
+  const double most = 0.25 * first.meanEdgeLength();
   std::vector<SurfacePoint> points;
   for (std::size_t i = 0; i + 2 < places.size(); i += 3) {
     const Eigen::Vector3d place(places[i], places[i + 1], places[i + 2]);
     if (!place.allFinite()) throw std::invalid_argument("a point must be three finite numbers");
     points.push_back(nearestSurfacePoint(finest, place));
-    const double away = (placeOf(finest, points.back()) - place).norm();
-    if (away > body.mesh(1).meanEdgeLength())
+    const double away =
+        std::min((placeOf(finest, points.back()) - place).norm(),
+                 (placeOf(first, nearestSurfacePoint(first, place)) - place).norm());
+    if (away > most)
       throw std::invalid_argument("the point " + vectorText(place.data()) + " is " + number(away) +
-                                  " off the surface, farther than its mean edge of " +
-                                  number(body.mesh(1).meanEdgeLength()) +
-                                  ": are both in the same unit?");
+                                  " off the surface, more than a quarter of its mean edge, " +
+                                  number(most) + ": are both in the same unit?");
   }
   return points;
 }
@@ -131,7 +137,8 @@ class AccuracyRun {
   explicit AccuracyRun(const AccuracyOptions& options)
       : options_(options),
         levels_(options.levels),
-        body_(surfaceOf(options), *std::max_element(levels_.begin(), levels_.end()),
+        body_(surfaceOf(options),
+              std::max(*std::max_element(levels_.begin(), levels_.end()), options.referenceLevel),
               options.subdivision),
         progress_([](double fraction, const char* stage) {
           drawProgress(fraction, stage);
@@ -205,8 +212,8 @@ class AccuracyRun {
   void setBase() {
     const std::size_t last = levels_.size() - 1;
     base_.level = options_.baseLevel > 0 ? options_.baseLevel : levels_[last > 0 ? last - 1 : 0];
-    if (base_.level > body_.count())
-      throw std::invalid_argument("--base-level is one of --levels: there is no level " +
+    if (std::find(levels_.begin(), levels_.end(), base_.level) == levels_.end())
+      throw std::invalid_argument("--base-level is one of --levels, which have no level " +
                                   std::to_string(base_.level));
     base_.radius = radius_;
     base_.reciprocal = !isKelvin();
@@ -232,6 +239,9 @@ class AccuracyRun {
     study.reference = reference.name();
     study.error = query_->description();
     study.query = kindOf(options_.query);
+    study.clock = options_.clock;
+    study.baseLevel = base_.level;
+    if (isKelvin()) return study;
     for (const LevelledPoint& point : points_) {
       const Eigen::Vector3d place = placeOf(body_.mesh(body_.count()), point.back());
       study.points.push_back({place.x(), place.y(), place.z()});
@@ -240,8 +250,6 @@ class AccuracyRun {
     study.ballRadius = ballRadius_;
     study.depth = depth_;
     study.uncertainty = reference.uncertainty(base_);
-    study.baseLevel = base_.level;
-    study.clock = options_.clock;
     return study;
   }
 
@@ -267,14 +275,19 @@ class AccuracyRun {
     return result;
   }
 
-  /// Of the trials whose time is that of one stage. What the reference cannot tell from the truth
-  /// counts as its uncertainty.
+  /// An error as it counts for the front: to three digits, as differences beyond are of no use, and
+  /// the reference's uncertainty where it cannot tell the answer from the truth.
+  static double countedError(const TrialResult& result) {
+    return std::stod(number(std::max(result.error, result.uncertainty), 3));
+  }
+
+  /// Of the trials whose time is that of one stage.
   static void markFront(std::vector<TrialResult>& results, bool isPrecompute) {
     std::vector<double> times, errors;
     for (const TrialResult& result : results) {
       const bool isOfStage = result.trial.isPrecompute == isPrecompute && result.failure.empty();
       times.push_back(isOfStage ? result.time().median : std::nan(""));
-      errors.push_back(std::max(result.error, result.uncertainty));
+      errors.push_back(isOfStage ? countedError(result) : std::nan(""));
     }
     const std::vector<bool> front = paretoFront(times, errors);
     for (std::size_t i = 0; i < results.size(); ++i)

@@ -29,7 +29,7 @@ struct TrialResult {
 struct AccuracyStudy {
   std::string body, reference, error;  ///< in words
   QueryKind query = QueryKind::Compliance;
-  std::vector<std::array<double, 3>> points;  ///< on the finest level, m
+  std::vector<std::array<double, 3>> points;  ///< on the finest level, m; none of a point source
   double radius = 0, ballRadius = 0, depth = 0;
   double uncertainty = 0;  ///< of the reference at the base's radius
   int baseLevel = 1;

@@ -45,10 +45,23 @@ bool BodyLevels::hasSharpEdges(int level) const {
   return false;
 }
 
-ElasticModel BodyLevels::model(int level, bool onePatch) const {
+Eigen::VectorXi BodyLevels::patches(const Level& level, TractionJumps jumps) const {
+  if (jumps == TractionJumps::Nowhere) return Eigen::VectorXi::Zero(level.patches.size());
+  Eigen::VectorXi patches = level.patches;
+  if (jumps == TractionJumps::SharpEdges) return patches;
+  const int shift = patches.maxCoeff() + 1;
+  const Eigen::Matrix3Xi& triangles = level.mesh->triangles();
+  for (int f = 0; f < patches.size(); ++f) {
+    bool isHeld = true;
+    for (int v : triangles.col(f)) isHeld = isHeld && level.conditions.isFixed(v);
+    if (isHeld) patches[f] += shift;
+  }
+  return patches;
+}
+
+ElasticModel BodyLevels::model(int level, TractionJumps jumps) const {
   const Level& found = at(level);
-  return ElasticModel(found.mesh, material_, found.conditions,
-                      onePatch ? Eigen::VectorXi::Zero(found.patches.size()) : found.patches);
+  return ElasticModel(found.mesh, material_, found.conditions, patches(found, jumps));
 }
 
 std::vector<SurfacePoint> BodyLevels::ancestors(const SurfacePoint& finest) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/settings.h"
 #include "mesh/flat_subdivision.h"
 #include "model/elastic_model.h"
 
@@ -29,8 +30,7 @@ class BodyLevels {
   const Material& material() const { return material_; }
   /// Whether traction may jump somewhere.
   bool hasSharpEdges(int level) const;
-  /// @param onePatch  as if the surface were smooth.
-  ElasticModel model(int level, bool onePatch) const;
+  ElasticModel model(int level, TractionJumps jumps) const;
 
   /// The points of all levels that a point of the finest descends from, the first of level 1.
   std::vector<SurfacePoint> ancestors(const SurfacePoint& finest) const;
@@ -42,6 +42,7 @@ class BodyLevels {
     Eigen::VectorXi patches;
     LoopLevel made;  ///< of the level before, without points
   };
+  Eigen::VectorXi patches(const Level& level, TractionJumps jumps) const;
   const Level& at(int level) const { return levels_.at(level - 1); }
 
   Material material_{1, 0};

@@ -34,6 +34,7 @@ class Knobs {
         {"contact", &Knobs::addContacts},
         {"collocation", &Knobs::addCollocations},
         {"edges", &Knobs::addEdges},
+        {"support", &Knobs::addSupports},
         {"reciprocity", &Knobs::addReciprocities},
         {"combined", &Knobs::addCombined}};
     knob_ = knob;
@@ -43,7 +44,6 @@ class Knobs {
   std::vector<Trial> take() { return std::move(trials_); }
 
  private:
-  /// @param best  NaN-like: none.
   void add(const std::string& value, const Setting& setting, bool isPrecompute,
            std::optional<Setting> best = {}, const std::string& series = {}) {
     trials_.push_back({knob_, value, series.empty() ? knob_ : series, setting, isPrecompute, best});
@@ -142,13 +142,19 @@ class Knobs {
       Setting setting = base_;
       setting.level = level;
       add("patches", setting, true, {}, "level, all else as by default");
-      setting.onePatch = true;
+      setting.jumps = TractionJumps::Nowhere;
       add("one traction a vertex", setting, true, {}, "edges: one traction a vertex");
     }
     if (trials_.size() == before)
       throw std::invalid_argument(
           "the surface has no sharp edge on any of the levels: there is nothing to vary by the "
           "knob edges");
+  }
+
+  void addSupports() {
+    addOnLevels(
+        "patches of its own", [](Setting& setting) { setting.jumps = TractionJumps::Support; },
+        false);
   }
 
   void addReciprocities() {
@@ -178,8 +184,8 @@ class Knobs {
 }  // namespace
 
 std::vector<std::string> knobsOf(QueryKind query, bool isPointSource) {
-  std::vector<std::string> knobs{"level",    "tolerance",   "solver", "collocation",
-                                 "combined", "reciprocity", "edges",  "storage"};
+  std::vector<std::string> knobs{"level",       "tolerance", "solver",  "collocation", "combined",
+                                 "reciprocity", "edges",     "support", "storage"};
   if (!isPointSource) knobs.push_back("columns");
   if (query == QueryKind::Compliance) {
     knobs.push_back("rows");

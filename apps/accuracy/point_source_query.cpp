@@ -109,7 +109,7 @@ class PointSourceQuery final : public Query {
   std::unique_ptr<PreparedQuery> prepare(std::shared_ptr<const GreensFunctions> greens,
                                          const Setting& setting) const override {
     return std::make_unique<PreparedPointSource>(
-        std::move(greens), body_.model(setting.level, setting.onePatch), source_);
+        std::move(greens), body_.model(setting.level, setting.jumps), source_);
   }
   std::string description() const override {
     return "displacement of the free surface in a point source's field, relative L2 norm";

@@ -24,6 +24,13 @@ enum class QueryKind {
 /// Rows of which a query evaluates the deformation.
 enum class Rows { Contact, Visible, All };
 
+/// Where traction may jump.
+enum class TractionJumps {
+  SharpEdges,  ///< and at the borders of patches that are given
+  Nowhere,     ///< one traction per vertex, as in [JP01]
+  Support,     ///< at sharp edges, and round the support: its triangles are patches of their own
+};
+
 /// One way to an answer: a value of every knob.
 struct Setting {
   // What the Green's functions are computed by.
@@ -31,7 +38,7 @@ struct Setting {
   double tolerance = BoundaryElementOptions().tolerance;
   Precision precision = Precision::Double;
   Collocation collocation = Collocation::Averaged;
-  bool onePatch = false;    ///< one traction per vertex, as in [JP01], where patches meet
+  TractionJumps jumps = TractionJumps::SharpEdges;
   bool allColumns = false;  ///< all free nodes', or those that the query needs
   bool reciprocal = true;
   double radius = 0;  ///< of the mask, m
@@ -42,7 +49,7 @@ struct Setting {
 
   /// Equal for settings that share their Green's functions.
   auto precomputeKey() const {
-    return std::tuple(level, tolerance, precision, collocation, onePatch, allColumns, reciprocal,
+    return std::tuple(level, tolerance, precision, collocation, jumps, allColumns, reciprocal,
                       radius);
   }
   auto key() const {
@@ -69,6 +76,7 @@ struct AccuracyOptions {
   double ballRadius = 0, depth = 0;  ///< m, 0 for the mask's radius, and a tenth of the ball's
   std::vector<int> levels{1, 2, 3};
   int baseLevel = 0;               ///< of the knobs other than the level; 0 for the last but one
+  int referenceLevel = 0;  ///< the finest that is extrapolated from; 0 for the last of the levels
   std::vector<std::string> knobs;  ///< empty: all that the query has
   std::string reference = "finest";
   std::string subdivision = "loop", clock = "wall";

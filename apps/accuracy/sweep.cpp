@@ -37,7 +37,7 @@ BoundaryElementResult computeGreens(const BodyLevels& body, const Query& query,
   options.columns = query.columns(setting);
   options.patchColumns = query.usesPatchColumns();
   options.threads = threads;
-  return computeBoundaryElementGreensFunctions(body.model(setting.level, setting.onePatch), options,
+  return computeBoundaryElementGreensFunctions(body.model(setting.level, setting.jumps), options,
                                                progress);
 }
 
