@@ -28,7 +28,8 @@ struct Options {
   double young = std::nan(""), poisson = std::nan("");
   std::string fixedArray;
   std::vector<double> halfSpace, box, sphere;
-  std::string precision = "double", collocation = "averaged", domain = "interior";
+  std::string precision = "double", solver = "direct", collocation = "averaged",
+              domain = "interior";
   double integrationTolerance = 1e-6, smoothAngle = 30;
   double tolerance = 0;  // of the error, 0 for none
   int levels = 4, vertices = 3000;
@@ -62,6 +63,12 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
   command
       .add_option("--integration-tolerance", o.integrationTolerance,
                   "Relative tolerance of the integrals")
+      ->excludes(tolerance)
+      ->capture_default_str();
+  command
+      .add_option("--solver", o.solver,
+                  "direct, or iterative: cheaper for few columns of large surfaces, in double")
+      ->check(CLI::IsMember({"direct", "iterative"}))
       ->excludes(tolerance)
       ->capture_default_str();
   command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions")
@@ -129,6 +136,7 @@ void setSupport(vtkReferenceBoundaryConditions* filter, const Options& o) {
 
 void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   filter->SetPrecision(o.precision == "mixed" ? 1 : o.precision == "float" ? 2 : 0);
+  filter->SetSolver(o.solver == "iterative");
   filter->SetCollocation(o.collocation == "vertex");
   filter->SetDomain(o.domain == "exterior");
   filter->SetTolerance(o.integrationTolerance);
@@ -169,7 +177,8 @@ void printModel(vtkPolyData* model) {
   const std::vector<std::string> stages = fieldStrings(model, "StageNames");
   for (std::size_t i = 0; i < stages.size(); ++i)
     printRow("seconds to " + stages[i], number(seconds->GetComponent(i, 0), 3));
-  printRow("condition number", number(fieldNumber(model, "ConditionEstimate", -1), 3));
+  const double condition = fieldNumber(model, "ConditionEstimate", -1);
+  printRow("condition number", condition < 0 ? "not estimated" : number(condition, 3));
   printErrors(model);
   printRow("reciprocity defect", number(fieldNumber(model, "ReciprocityDefect", -1), 3));
   printRow("integration defect", number(fieldNumber(model, "RotationDefect", -1), 3));

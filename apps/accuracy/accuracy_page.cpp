@@ -30,7 +30,8 @@ std::string meaningOf(const std::string& knob) {
       {"level", "Refinements of the surface; all other knobs at their defaults."},
       {"tolerance", "Relative tolerance of each integral over a triangle."},
       {"solver",
-       "Arithmetic of the factorisation: double, float refined in double (mixed), or float."},
+       "Factored in double, in float and refined in double (mixed), or in float; or iterated in "
+       "double."},
       {"collocation", "The integral equation at the vertices alone, as in the paper."},
       {"combined", "Vertex collocation and float arithmetic together."},
       {"reciprocity", "The compliance symmetrised as it is served, or raw."},

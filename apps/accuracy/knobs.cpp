@@ -85,6 +85,8 @@ class Knobs {
       addOnLevels(
           kPrecisions[static_cast<int>(precision)],
           [&](Setting& setting) { setting.precision = precision; }, true);
+    addOnLevels(
+        "iterative", [](Setting& setting) { setting.solver = LinearSolver::Iterative; }, true);
   }
 
   void addStorages() {

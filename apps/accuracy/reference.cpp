@@ -55,7 +55,8 @@ std::string nameOf(const RichardsonExtrapolation& found, const BodyLevels& body,
          (found.isObserved           ? "observed order " + number(found.order, 3)
           : body.count() - first > 1 ? "order 1, as their differences show none"
                                      : "stated order " + number(found.order, 3)) +
-         ", double precision, averaged collocation, integration tolerance 1e-06";
+         ", double precision, averaged collocation, the support as patches of its own, "
+         "integration tolerance 1e-06";
 }
 
 }  // namespace
@@ -90,6 +91,7 @@ Reference Reference::finest(const BodyLevels& body, const Query& query, const Se
                                         level == body.count() ? 1 : 0.1 * (level - first + 1));
     Setting setting = base;
     setting.level = level;
+    setting.jumps = TractionJumps::Support;  // converges faster where the support ends
     const auto greens =
         computeGreens(body, all, setting, threads, [&](double fraction, const char* stage) {
           part.report(fraction, stage);

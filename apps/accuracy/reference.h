@@ -16,7 +16,8 @@ class Reference {
   static Reference exact(std::string name);
   /// Numbers from elsewhere, for all radii.
   static Reference given(std::string name, Eigen::VectorXd values);
-  /// Richardson's extrapolation of the finest three levels (of two, if there are no more).
+  /// Richardson's extrapolation of the finest three levels (of two, if there are no more), with the
+  /// support as patches of its own.
   /// @param radii  that there will be settings of.
   /// @throws std::invalid_argument for a single level; Aborted.
   static Reference finest(const BodyLevels& body, const Query& query, const Setting& base,

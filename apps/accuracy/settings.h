@@ -37,6 +37,7 @@ struct Setting {
   int level = 1;
   double tolerance = BoundaryElementOptions().tolerance;
   Precision precision = Precision::Double;
+  LinearSolver solver = LinearSolver::Direct;
   Collocation collocation = Collocation::Averaged;
   TractionJumps jumps = TractionJumps::SharpEdges;
   bool allColumns = false;  ///< all free nodes', or those that the query needs
@@ -49,8 +50,8 @@ struct Setting {
 
   /// Equal for settings that share their Green's functions.
   auto precomputeKey() const {
-    return std::tuple(level, tolerance, precision, collocation, jumps, allColumns, reciprocal,
-                      radius);
+    return std::tuple(level, tolerance, precision, solver, collocation, jumps, allColumns,
+                      reciprocal, radius);
   }
   auto key() const {
     return std::tuple_cat(precomputeKey(), std::tuple(floatStorage, rows, contactTolerance));
@@ -75,7 +76,7 @@ struct AccuracyOptions {
   double radius = 0;                 ///< m, 0 for a mean edge of the surface as it is
   double ballRadius = 0, depth = 0;  ///< m, 0 for the mask's radius, and a tenth of the ball's
   std::vector<int> levels{1, 2, 3};
-  int baseLevel = 0;               ///< of the knobs other than the level; 0 for the last but one
+  int baseLevel = 0;       ///< of the knobs other than the level; 0 for the last but one
   int referenceLevel = 0;  ///< the finest that is extrapolated from; 0 for the last of the levels
   std::vector<std::string> knobs;  ///< empty: all that the query has
   std::string reference = "finest";

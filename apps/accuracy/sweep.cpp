@@ -31,6 +31,7 @@ BoundaryElementResult computeGreens(const BodyLevels& body, const Query& query,
                                     const ProgressCallback& progress) {
   BoundaryElementOptions options;
   options.precision = setting.precision;
+  options.solver = setting.solver;
   options.collocation = setting.collocation;
   options.tolerance = setting.tolerance;
   options.reciprocal = setting.reciprocal;

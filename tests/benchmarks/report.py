@@ -92,6 +92,10 @@ def solve_rows(folder):
                    f"{run.seconds('solveMixed' + case) / ours:.2f}")
             yield (f"the same, float over double time", "",
                    f"{run.seconds('solveInOnePrecision<float>' + case) / ours:.2f}")
+    case = "/n:1280/few:2"
+    size, products = (int(run.counter("solveIterative" + case, name)) for name in ("N", "products"))
+    yield (f"one node's columns by {products} iterations over factoring, N = {size}", "",
+           f"{run.seconds('solveIterative' + case) / run.seconds('solveInOnePrecision<double>' + case):.2f}")
 
 
 def precompute_rows(folder):

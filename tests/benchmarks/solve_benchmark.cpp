@@ -10,6 +10,7 @@
 
 #include "bem/boundary_element_method.h"
 #include "bem/exchanged_system.h"
+#include "linear_algebra/iterative_solve.h"
 #include "linear_algebra/multi_precision_solve.h"
 #include "support/lapack_lu.h"
 #include "support/spheres.h"
@@ -27,8 +28,8 @@ struct Case {
     bem::SystemColumns wanted;
     for (int v = 0; v < body.vertexCount(); ++v)
       if (!body.fixed[v]) wanted.vertices.push_back(v);
-    const bool few = state.range(1);
-    if (few) wanted.vertices.resize(body.vertexCount() * 4 / 100);
+    if (state.range(1) == 1) wanted.vertices.resize(body.vertexCount() * 4 / 100);
+    if (state.range(1) == 2) wanted.vertices.resize(1);
     system = bem::assembleSystem<Scalar>(body, scheme, wanted, 1e-6, 1, {});
     matrix = AlignedBuffer<Scalar>(system.matrix.size());
     right = AlignedBuffer<Scalar>(system.right.size());
@@ -76,12 +77,23 @@ void solveMixed(benchmark::State& state) {
   state.counters["steps"] = steps;
 }
 
+void solveIterative(benchmark::State& state) {
+  int products = 0;
+  run<double>(state, [&](Case<double>& c, int size, int stride, int columns) {
+    products = solveIterativeInPlace(c.matrix, size, stride, c.system.diagonalRows, c.right,
+                                     columns, {}, {})
+                   .refinementSteps;
+  });
+  state.counters["products"] = products;
+}
+
 void solveByLapack(benchmark::State& state) {
   run<double>(state, [](Case<double>& c, int size, int stride, int columns) {
     LapackLu(c.matrix.data(), size, stride).solve(c.right.data(), columns, stride);
   });
 }
 
+/// Few is 0 for all free nodes' columns, 1 for a twenty-fifth of them, 2 for one node's.
 void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"n", "few"})
       ->ArgsProduct({{162, 642, 1280}, {0, 1}})
@@ -91,6 +103,11 @@ BENCHMARK_TEMPLATE(solveInOnePrecision, double)->Apply(sizes);
 BENCHMARK_TEMPLATE(solveInOnePrecision, float)->Apply(sizes);
 BENCHMARK(solveMixed)->Apply(sizes);
 BENCHMARK(solveByLapack)->Apply(sizes);
+void oneNode(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"n", "few"})->Args({1280, 2})->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_TEMPLATE(solveInOnePrecision, double)->Apply(oneNode);
+BENCHMARK(solveIterative)->Apply(oneNode);
 
 }  // namespace
 }  // namespace palpate::bench

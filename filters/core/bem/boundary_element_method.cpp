@@ -16,6 +16,7 @@
 #include "bem/exchanged_system.h"
 #include "greens/reciprocity.h"
 #include "linear_algebra/dense_lu.h"
+#include "linear_algebra/iterative_solve.h"
 #include "linear_algebra/multi_precision_solve.h"
 #include "parallel.h"
 
@@ -142,10 +143,14 @@ class Precomputation {
   }
 
   SolveReport solve(bem::ExchangedSystem<Scalar>& system, const Progress& progress) const {
-    if constexpr (std::is_same_v<Scalar, double>)
+    if constexpr (std::is_same_v<Scalar, double>) {
+      if (options_.solver == LinearSolver::Iterative)
+        return solveIterativeInPlace(system.matrix, system.size, system.stride, system.diagonalRows,
+                                     system.right, system.columns, {}, progress);
       if (options_.precision == Precision::Mixed)
         return solveMixedInPlace(system.matrix, system.size, system.stride, system.right,
                                  system.columns, progress);
+    }
     return solveInPlace(system.matrix, system.size, system.stride, system.right, system.columns,
                         progress);
   }
@@ -252,8 +257,10 @@ std::string describeSource(const ElasticModel& model, const BoundaryElementOptio
   text << "boundary elements (linear triangles, "
        << (options.collocation == Collocation::Vertex ? "vertex" : "averaged") << " collocation), "
        << (model.domain() == Domain::Exterior ? "exterior" : "interior") << " domain, "
-       << precisions[static_cast<int>(options.precision)] << " precision, integration tolerance "
-       << options.tolerance << ", " << (options.reciprocal ? "reciprocal" : "raw");
+       << precisions[static_cast<int>(options.precision)] << " precision, "
+       << (options.solver == LinearSolver::Iterative ? "iterative solver, " : "")
+       << "integration tolerance " << options.tolerance << ", "
+       << (options.reciprocal ? "reciprocal" : "raw");
   return text.str();
 }
 
@@ -337,6 +344,8 @@ BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& 
   if (!(options.tolerance >= 0 && options.tolerance < 1))
     throw std::invalid_argument("the integration tolerance must be at least 0 and below 1, not " +
                                 std::to_string(options.tolerance));
+  if (options.solver == LinearSolver::Iterative && options.precision != Precision::Double)
+    throw std::invalid_argument("the iterative solver works in double precision alone");
   BoundaryElementResult result;
   GreensFunctionsInfo& info = result.info;
   info.conditions = model.conditions();

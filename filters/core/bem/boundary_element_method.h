@@ -21,8 +21,15 @@ enum class Precision {
   Float,   ///< factored, solved and stored in float: half the memory, about 1e-5 relative
 };
 
+/// How the dense system is solved.
+enum class LinearSolver {
+  Direct,     ///< factored
+  Iterative,  ///< by solveIterativeInPlace, in double: cheaper for few columns of large surfaces
+};
+
 struct BoundaryElementOptions {
   Precision precision = Precision::Double;
+  LinearSolver solver = LinearSolver::Direct;
   Collocation collocation = Collocation::Averaged;
   /// Relative tolerance of each integral over a triangle. The default costs less than the
   /// discretisation error of any mesh that it is used on.
@@ -53,8 +60,9 @@ struct BoundaryElementResult {
 /// Computes the discrete Green's functions of a homogeneous isotropic body by collocation of the
 /// boundary integral equation with linear displacements and tractions on flat triangles ([JP01]
 /// section 3.4, eq. 8-13). Each body of the model is a system of its own.
-/// @throws std::invalid_argument for columns out of range; Aborted; std::bad_alloc;
-///         std::runtime_error if a system is singular.
+/// @throws std::invalid_argument for columns out of range, or an iterative solver in float;
+/// Aborted;
+///         std::bad_alloc; std::runtime_error if a system is singular, or not solved by iterations.
 BoundaryElementResult computeBoundaryElementGreensFunctions(
     const ElasticModel& model, const BoundaryElementOptions& options = {},
     const ProgressCallback& progress = {});

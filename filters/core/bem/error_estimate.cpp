@@ -17,6 +17,7 @@ namespace palpate {
 namespace {
 
 constexpr double kSupportedOrder = 1.25, kSquareOrder = 2;
+constexpr double kUsualCondition = 1e4;
 constexpr double kLockingRatio = 0.25;  // of edges to walls, half of that of the coarser mesh
 constexpr int kLeastVertices = 50, kLeastOfThird = 30;
 constexpr int kMostRefined = 400;        // vertices of a model that is refined for its estimate
@@ -143,7 +144,8 @@ ErrorEstimate otherErrors(const GreensFunctions& greens) {
   const Diagnostics& diagnostics = greens.info().diagnostics;
   ErrorEstimate estimate;
   estimate.integration = kQuadratureShare * diagnostics.rotationDefect;
-  estimate.solver = diagnostics.solverResidual * diagnostics.conditionEstimate;
+  const double condition = diagnostics.conditionEstimate;  // not known of iterative solves
+  estimate.solver = diagnostics.solverResidual * (condition > 0 ? condition : kUsualCondition);
   estimate.storage = greens.epsilon() / 2;
   return estimate;
 }

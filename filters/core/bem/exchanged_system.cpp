@@ -82,10 +82,28 @@ class Assembler {
     const double size = body_.points.colwise().norm().maxCoeff();
     system_.rotationDefect = *std::max_element(rotation.begin(), rotation.end()) / size;
     replaceByIdentities();
+    pairRows();
     return std::move(system_);
   }
 
  private:
+  /// Gives each block of unknowns an equation of its vertex, in order where there are several.
+  void pairRows() {
+    std::vector<std::vector<int>> unknowns(body_.vertexCount());
+    for (int v = 0; v < body_.vertexCount(); ++v) unknowns[v] = {v};
+    for (const TractionUnknown& unknown : scheme_.tractions)
+      if (unknown.column != unknown.vertex) unknowns[unknown.vertex].push_back(unknown.column);
+    std::vector<std::size_t> used(body_.vertexCount(), 0);
+    system_.diagonalRows.resize(system_.size);
+    for (int e = 0; e < scheme_.equationCount(); ++e) {
+      const int v = scheme_.equations[e].vertex, block = unknowns[v][used[v]++];
+      const int panel = e / kLanes, lanes = panels_.laneCount(panel);
+      for (int i = 0; i < 3; ++i)
+        system_.diagonalRows[3 * block + i] =
+            static_cast<int>(firstRow(panel)) + i * lanes + e % kLanes;
+    }
+  }
+
   /// Where a block's values stand in the panels' memory, which is read in that order.
   int place(const ColumnBlock& block) const {
     return panels_.placeOf(block.vertex >= 0 ? block.vertex

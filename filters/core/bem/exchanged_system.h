@@ -31,7 +31,9 @@ struct ExchangedSystem {
   int stride = 0;                ///< from column to column of either, a whole number of cache lines
   AlignedBuffer<Scalar> matrix;  ///< A, column-major, destroyed by the solver
   AlignedBuffer<Scalar> right;   ///< B, column-major, overwritten with the solution
-  double rotationDefect = 0;     ///< largest |H (omega x r)| over the largest |omega x r|
+  /// The rows that belong with A's columns, one each: those of an equation of the same vertex.
+  std::vector<int> diagonalRows;
+  double rotationDefect = 0;  ///< largest |H (omega x r)| over the largest |omega x r|
 };
 
 /// Integrates and fills the system, panel by panel, so that H and G never exist as a whole.

@@ -35,6 +35,7 @@ void vtkBoundaryElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Precision: " << this->Precision << "\n"
+     << indent << "Solver: " << this->Solver << "\n"
      << indent << "Collocation: " << this->Collocation << "\n"
      << indent << "Domain: " << this->Domain << "\n"
      << indent << "Tolerance: " << this->Tolerance << "\n"
@@ -107,6 +108,8 @@ palpate::BoundaryElementOptions vtkBoundaryElementGreensFunctions::OptionsFor(
 {
   palpate::BoundaryElementOptions options;
   options.precision = static_cast<palpate::Precision>(this->Precision);
+  options.solver =
+    this->Solver == ITERATIVE ? palpate::LinearSolver::Iterative : palpate::LinearSolver::Direct;
   options.collocation =
     this->Collocation == VERTEX ? palpate::Collocation::Vertex : palpate::Collocation::Averaged;
   options.tolerance = this->Tolerance;

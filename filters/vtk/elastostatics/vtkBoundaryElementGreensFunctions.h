@@ -59,6 +59,23 @@ public:
 
   ///@{
   /**
+   * How the system is solved: factored (default), or iteratively, in double precision to a residual of
+   * 1e-9 of each right-hand side: cheaper where few columns of a large surface are wanted. The condition
+   * number is not estimated then.
+   */
+  enum SolverType
+  {
+    DIRECT = 0,
+    ITERATIVE = 1
+  };
+  vtkSetClampMacro(Solver, int, DIRECT, ITERATIVE);
+  vtkGetMacro(Solver, int);
+  void SetSolverToDirect() { this->SetSolver(DIRECT); }
+  void SetSolverToIterative() { this->SetSolver(ITERATIVE); }
+  ///@}
+
+  ///@{
+  /**
    * Where the boundary integral equation is enforced: averaged under each vertex's hat (default, several
    * times more accurate), or at the vertices alone as in the paper (a third of the integration).
    */
@@ -184,6 +201,7 @@ private:
   void operator=(const vtkBoundaryElementGreensFunctions&) = delete;
 
   int Precision = DOUBLE;
+  int Solver = DIRECT;
   int Collocation = AVERAGED;
   int Domain = INTERIOR;
   double Tolerance = 1e-6;
