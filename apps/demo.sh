@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what is missing, builds, and does Palpate's main job on the kidney of data/: precomputes it,
-# presses it at a point, and looks at its stiffness without and with pressure masks. Leaves models,
-# fields and pictures in demo/, and prints a table.
+# presses it at a point, looks at its stiffness without and with pressure masks, and at what accuracy
+# costs. Leaves models, fields, pages and pictures in demo/, and prints a table.
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tests/setup.sh
 mkdir -p demo
@@ -31,6 +31,8 @@ step single stiffness demo/model.vtp demo/stiffness_single.vtp --image demo/stif
 step masked stiffness demo/model.vtp demo/stiffness_masked.vtp --radius-edges 2 \
   --image demo/stiffness_masked.png
 step report artifacts data/kidney.vtp --levels 2 3 --radius 0.016 --report demo/stiffness.html
+step accuracy accuracy data/kidney.vtp --levels 1 2 3 --radius 0.016 --repeats 3 \
+  --report demo/accuracy.html --image demo/accuracy.png
 
 echo
 row "vertices (free)" "$(value precompute vertices) ($(value precompute "Green's functions"))"
@@ -43,8 +45,10 @@ row "reciprocity defect (discretisation)" "$(value precompute 'reciprocity defec
 row "integration defect, solver residual" "$(value precompute 'integration defect'), $(value precompute 'solver residual')"
 row "contact force under 8 mm, N" "$(value press 'contact force, N')"
 row "seconds: stiffness of two meshes, with report" "${seconds[report]}"
+row "seconds: accuracy of three levels, with report" "${seconds[accuracy]}"
 row "variation of |K|, single vertices" "$(value single 'coefficient of variation')"
 row "variation of |K|, masks of 2 edge lengths" "$(value masked 'coefficient of variation')"
 echo
-echo "In demo/: model.vtp, pressed.vtp, stiffness_single.vtp, stiffness_masked.vtp, stiffness.html, and pictures:"
+echo "In demo/: model.vtp, pressed.vtp, stiffness_single.vtp, stiffness_masked.vtp, stiffness.html,"
+echo "accuracy.html, with their tables, and pictures:"
 ls demo/*.png

@@ -85,8 +85,9 @@ class Knobs {
       addOnLevels(
           kPrecisions[static_cast<int>(precision)],
           [&](Setting& setting) { setting.precision = precision; }, true);
-    addOnLevels(
-        "iterative", [](Setting& setting) { setting.solver = LinearSolver::Iterative; }, true);
+    Setting iterative = base_;  // on larger levels it takes too long for queries of many columns
+    iterative.solver = LinearSolver::Iterative;
+    add("iterative", iterative, true, base_, "solver: iterative");
   }
 
   void addStorages() {
