@@ -46,9 +46,11 @@ void write(std::ostream& out, const Drawing::Label& label) {
 std::string svgOf(const Drawing& drawing, const std::string& description, bool isFile) {
   std::ostringstream out;
   if (isFile) out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-  out << "<svg " << (isFile ? "xmlns=\"http://www.w3.org/2000/svg\" " : "") << "viewBox=\"0 0 "
-      << drawing.width << " " << drawing.height << "\" width=\"" << drawing.width
-      << "\" role=\"img\" aria-label=\"" << html::escaped(description)
+  out << "<svg "
+      << (isFile ? "xmlns=\"http://www.w3.org/2000/svg\" "
+                 : "style=\"max-width: 100%; height: auto\" ")
+      << "viewBox=\"0 0 " << drawing.width << " " << drawing.height << "\" width=\""
+      << drawing.width << "\" role=\"img\" aria-label=\"" << html::escaped(description)
       << "\" font-family=\"system-ui, sans-serif\" fill=\"" << kInk << "\">\n";
   if (isFile)
     out << "<rect width=\"" << drawing.width << "\" height=\"" << drawing.height
