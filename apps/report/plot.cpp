@@ -90,8 +90,10 @@ void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis
     const double px = x.at(series.x[i]), py = y.at(series.y[i]);
     line.points.push_back({px, py});
     if (hasMarks(series)) drawing.marks.push_back(markOf(series, i, px, py));
-    if (!series.notes.empty())
-      drawing.labels.push_back({px + 9, py - 7, series.notes[i], Drawing::Anchor::Start, 11});
+    if (series.notes.empty()) continue;
+    const bool isAtEdge = px > x.to - 50;
+    drawing.labels.push_back({px + (isAtEdge ? -9 : 9), py - 7, series.notes[i],
+                              isAtEdge ? Drawing::Anchor::End : Drawing::Anchor::Start, 11});
   }
   if (hasLine(series)) drawing.lines.push_back(line);
 }
