@@ -13,11 +13,10 @@
 #include <vtkToleranceGreensFunctions.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 
 #include "commands.h"
+#include "support_options.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -25,9 +24,7 @@ namespace {
 
 struct Options {
   std::string input, output;
-  double young = std::nan(""), poisson = std::nan("");
-  std::string fixedArray;
-  std::vector<double> halfSpace, box, sphere;
+  SupportOptions support;
   std::string precision = "double", solver = "direct", collocation = "averaged",
               domain = "interior";
   double integrationTolerance = 1e-6, smoothAngle = 30;
@@ -86,29 +83,7 @@ void addOptions(CLI::App& command, Options& o) {
           .add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
           ->required(),
       "models", ".vtp");
-  const CLI::Validator isNumber(
-      [](const std::string& text) {
-        return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number: " + text : "";
-      },
-      "");
-  command.add_option("--young", o.young, "Young's modulus, Pa; by default the file's")
-      ->check(isNumber);
-  command
-      .add_option("--poisson", o.poisson,
-                  "Poisson's ratio, above -1 up to 0.5; by default the file's")
-      ->check(isNumber);
-  command
-      .add_option("--fix-array", o.fixedArray, "Fix vertices where this point array is not zero")
-      ->group("Support (by default the file's array BoundaryType)");
-  command.add_option("--fix-half-space", o.halfSpace, "Fix vertices behind a plane: point, normal")
-      ->expected(6)
-      ->group("Support (by default the file's array BoundaryType)");
-  command.add_option("--fix-box", o.box, "Fix vertices in a box: xmin xmax ymin ymax zmin zmax")
-      ->expected(6)
-      ->group("Support (by default the file's array BoundaryType)");
-  command.add_option("--fix-sphere", o.sphere, "Fix vertices in a ball: centre, radius")
-      ->expected(4)
-      ->group("Support (by default the file's array BoundaryType)");
+  o.support.addTo(command);
   addAccuracyOptions(command, o);
   command.add_option("--collocation", o.collocation, "averaged, or vertex as in the paper")
       ->check(CLI::IsMember({"averaged", "vertex"}))
@@ -123,15 +98,6 @@ void addOptions(CLI::App& command, Options& o) {
                    "Also responses to tractions on single patches of sharp edges");
   command.add_flag("--raw", o.raw, "Do not symmetrise the compliance");
   command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
-}
-
-void setSupport(vtkReferenceBoundaryConditions* filter, const Options& o) {
-  filter->SetYoungsModulus(o.young);
-  filter->SetPoissonRatio(o.poisson);
-  filter->SetFixedArrayName(o.fixedArray.c_str());
-  if (!o.halfSpace.empty()) filter->AddFixedHalfSpace(o.halfSpace.data(), o.halfSpace.data() + 3);
-  if (!o.box.empty()) filter->AddFixedBox(o.box.data());
-  if (!o.sphere.empty()) filter->AddFixedSphere(o.sphere.data(), o.sphere[3]);
 }
 
 void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
@@ -202,7 +168,7 @@ void addPrecompute(CLI::App& program) {
   command->callback([options] {
     vtkNew<vtkReferenceBoundaryConditions> conditions;
     conditions->SetInputData(readSurface(options->input));
-    setSupport(conditions, *options);
+    options->support.applyTo(conditions);
     const auto bem = method(*options);
     bem->SetInputData(run(conditions));
     const auto model = run(bem);

@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Estimated errors on models, and vtkToleranceGreensFunctions: the filter, the program, the package."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from palpate.arrays import as_ids, as_vtk
+from support.surfaces import PROGRAM, copy_of, failure_of, lower_cap, points_of, sphere, sphere_model
+
+KIDNEY = palpate.example("kidney")
+
+
+def number(model, name):
+    return float(palpate.array(model, name)[0])
+
+
+def chooser(tolerance, levels=4, surface=None):
+    algorithm = palpate.vtkToleranceGreensFunctions()
+    algorithm.SetInputData(surface if surface is not None else palpate.read(KIDNEY))
+    algorithm.SetErrorTolerance(tolerance)
+    algorithm.SetMaximumNumberOfLevels(levels)
+    return algorithm
+
+
+class Estimates(unittest.TestCase):
+    def test_are_on_every_model_by_cause(self):
+        model = sphere_model(2)
+        parts = [number(model, name) for name in ("DiscretizationError", "IntegrationError", "SolverError",
+                                                  "StorageError")]
+        self.assertAlmostEqual(number(model, "ErrorEstimate"), sum(parts), delta=1e-12)
+        self.assertGreater(min(parts), 0)
+        self.assertGreater(number(model, "ContactErrorEstimate"), 0)
+        self.assertGreaterEqual(number(model, "MostErrorEstimate"), number(model, "ErrorEstimate"))
+        self.assertGreater(number(model, "ErrorLoadLength"), 0)
+
+    def test_can_be_left_out(self):
+        surface = sphere(1)
+        model = palpate.precompute(surface, 1e4, 0.3, fixed=lower_cap(surface), estimate_error=False)
+        self.assertEqual(number(model, "ErrorEstimate"), -1)
+        self.assertNotIn("estimate", palpate.array(model, "StageNames"))
+
+    def test_fall_when_the_support_has_a_patch_of_its_own(self):
+        surface = palpate.refine(palpate.read(KIDNEY), 2)
+        shared = palpate.precompute(surface, None, None)
+        own = palpate.precompute(surface, None, None, support_patch=True)
+        self.assertLess(number(own, "ErrorEstimate"), 0.5 * number(shared, "ErrorEstimate"))
+        patches, fixed = palpate.array(own, "SmoothPatch"), palpate.array(own, "BoundaryType")
+        self.assertEqual(len(set(patches)), 2)
+        self.assertEqual(own.GetNumberOfPoints(), len(fixed))
+        refined = palpate.refine(own, 1)  # inherits them
+        self.assertEqual(len(set(palpate.array(refined, "SmoothPatch"))), 2)
+
+    def test_go_when_the_surface_is_refined(self):
+        self.assertFalse(palpate.refine(sphere_model(1)).GetFieldData().HasArray("ErrorEstimate"))
+
+
+class Tolerance(unittest.TestCase):
+    def test_refines_until_the_estimate_meets_it(self):
+        algorithm = chooser(0.1)
+        algorithm.Update()
+        model = algorithm.GetOutput()
+        self.assertEqual(model.GetNumberOfPoints(), 322)
+        self.assertLessEqual(number(model, "MostErrorEstimate"), 0.1)
+        steps = palpate.array(model, "ToleranceSteps")
+        self.assertEqual(len(steps), 3)
+        self.assertIn("level 2, 322 vertices", steps[-1])
+        self.assertIn("by a fifth within 10 %", steps[-1])
+        self.assertFalse(np.isnan(palpate.array(palpate.stiffness(model, radius=0.016),
+                                                "StiffnessNorm")).all())
+
+    def test_is_the_same_surface_as_by_hand(self):
+        surface = palpate.refine(palpate.read(KIDNEY), 2)
+        algorithm = chooser(0.1)
+        algorithm.Update()
+        self.assertTrue((points_of(algorithm.GetOutput()) == points_of(surface)).all())
+        byhand = palpate.precompute(surface, None, None, precision="float", integration_tolerance=1e-3,
+                                    support_patch=True)
+        self.assertTrue((palpate.greens_functions(algorithm.GetOutput())
+                         == palpate.greens_functions(byhand)).all())
+
+    def test_keeps_data_on_the_surface(self):
+        surface = copy_of(palpate.read(KIDNEY))
+        tag = np.arange(surface.GetNumberOfPoints(), dtype=float)
+        surface.GetPointData().AddArray(as_vtk(tag, "Tag", 1))
+        model = palpate.precompute(surface, None, None, tolerance=0.1)
+        self.assertTrue((palpate.array(model, "Tag")[:len(tag)] == tag).all())
+
+    def test_keeps_a_surface_that_is_fine_enough(self):
+        surface = sphere(2)
+        surface.GetPointData().AddArray(as_vtk(lower_cap(surface), "BoundaryType", 1, np.uint8))
+        model = palpate.precompute(surface, 1e4, 0.3, tolerance=0.4)
+        self.assertEqual(model.GetNumberOfPoints(), 162)
+
+    def test_out_of_reach_is_refused_with_the_error_that_is(self):
+        sentence = failure_of(chooser(0.01, levels=0))
+        self.assertIn("a tolerance of 1 % is out of reach: level 0 with its 22 vertices has an estimated "
+                      "error of", sentence)
+        self.assertIn("out of reach", failure_of(chooser(1e-5)))
+
+    def test_settings_that_it_chooses_are_refused(self):
+        algorithm = chooser(0.1)
+        algorithm.SetColumnNodes(as_ids(np.array([1]), "columns"))
+        self.assertIn("columns cannot be chosen together with a tolerance", failure_of(algorithm))
+        for settings in ({"precision": "float"}, {"columns": [1]}, {"integration_tolerance": 1e-3}):
+            with self.assertRaisesRegex(palpate.Error, "a tolerance chooses"):
+                palpate.precompute(palpate.read(KIDNEY), None, None, tolerance=0.1, **settings)
+
+    def test_impossible_tolerances_are_refused(self):
+        for tolerance in (0, -1, 1, float("nan")):
+            self.assertIn("the tolerance must be above 0 and below 1", failure_of(chooser(tolerance)))
+
+    def test_can_be_aborted(self):
+        with self.assertRaises(palpate.Aborted):
+            palpate.precompute(palpate.read(KIDNEY), None, None, tolerance=0.05,
+                               progress=lambda fraction, stage: fraction < 0.5)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.model = Path(folder.name) / "model.vtp"
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+    def test_prints_what_it_tried_and_what_it_estimates(self):
+        done = self.run_program("precompute", KIDNEY, self.model, "--tolerance", 0.1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("tried"), 3)
+        self.assertIn("estimated error", done.stdout)
+        info = self.run_program("info", self.model).stdout
+        for word in ("estimated error", "of contact compliances", "loads spread over", "by mesh"):
+            self.assertIn(word, info)
+
+    def test_refuses_in_one_line_and_writes_nothing(self):
+        for arguments, sentence in ((("--tolerance", 1e-4), "out of reach"),
+                                    (("--tolerance", 0.01, "--max-levels", 0), "out of reach"),
+                                    (("--tolerance", 0.1, "--columns", 1), "--columns"),
+                                    (("--tolerance", 2), "--tolerance"),
+                                    (("--max-levels", 1), "--tolerance")):
+            done = self.run_program("precompute", KIDNEY, self.model, *arguments)
+            self.assertGreater(done.returncode, 0, arguments)
+            self.assertIn(sentence, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertFalse(os.path.exists(self.model))
+
+
+if __name__ == "__main__":
+    unittest.main()
