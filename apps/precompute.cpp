@@ -48,7 +48,7 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
       ->needs(tolerance)
       ->capture_default_str()
       ->group(chosen);
-  command.add_option("--max-vertices", o.vertices, "Vertices of a refined surface at most")
+  command.add_option("--max-vertices", o.vertices, "Vertices at most, refined or not")
       ->check(CLI::Range(4, 100000))
       ->needs(tolerance)
       ->capture_default_str()

@@ -135,6 +135,12 @@ TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
   EXPECT_NE(here.find("and is the last within 0 refinements"), std::string::npos) << here;
 }
 
+TEST(ToleranceSearch, RefusesASurfaceThatIsLargerThanAllowed) {
+  Levels levels("nodule");
+  EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, 0.5, {0, 30}, {}),
+               std::runtime_error);
+}
+
 TEST(ToleranceSearch, RefusesImpossibleTolerances) {
   Levels levels("nodule");
   for (double tolerance : {0.0, -1.0, 1.0, std::nan("")})

@@ -114,9 +114,9 @@ void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
   const auto fine = solve(isBlunt ? withSupportPatch(finer.model) : finer.model, options, progress);
   const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
   const ProbeLoads loads = loadsOf(model);
-  addDiscretization(
-      compareUnderLoads(*fine, finer.model.mesh(), greens, model.mesh(), finer.vertices, loads),
-      isBlunt ? 1 : gain / (gain - 1), loads.length, estimate);
+  addDiscretization(compareUnderLoads(*fine, finer.model.mesh(), isWhole ? greens : *whole,
+                                      model.mesh(), finer.vertices, loads),
+                    isBlunt ? 1 : gain / (gain - 1), loads.length, estimate);
 }
 
 }  // namespace
@@ -169,17 +169,26 @@ std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVert
 ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOptions& options,
                             const GreensFunctions& greens, const Progress& progress) {
   ErrorEstimate estimate = otherErrors(greens);
-  try {
+  const auto attempt = [&](const auto& by) {
+    ErrorEstimate attempted = estimate;
+    try {
+      by(attempted);
+      estimate = attempted;
+    } catch (const Aborted&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      // The other mesh's system is singular, or there is no OpenMesh.
+    }
+  };
+  attempt([&](ErrorEstimate& attempted) {
     if (const auto coarser = coarsenedModel(model, kLeastVertices))
-      estimateByCoarser(model, *coarser, options, greens, progress, estimate);
-    if (estimate.discretization >= 0 || model.mesh().vertexCount() > kMostRefined) return estimate;
+      estimateByCoarser(model, *coarser, options, greens, progress, attempted);
+  });
+  if (estimate.discretization >= 0 || model.mesh().vertexCount() > kMostRefined) return estimate;
+  attempt([&](ErrorEstimate& attempted) {
     if (const auto finer = refinedModel(model))
-      estimateByFiner(model, *finer, options, greens, progress, estimate);
-  } catch (const Aborted&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    // The other mesh's system is singular, or there is no OpenMesh: no estimate.
-  }
+      estimateByFiner(model, *finer, options, greens, progress, attempted);
+  });
   return estimate;
 }
 

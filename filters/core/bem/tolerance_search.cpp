@@ -102,6 +102,7 @@ class Search {
         return true;
       };
       const ElasticModel model = model_(k);
+      requireAllowed(model.mesh().vertexCount());
       try {
         levels_.push_back(
             {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
@@ -112,6 +113,13 @@ class Search {
             {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
       }
     }
+  }
+
+  void requireAllowed(int vertices) const {
+    if (vertices <= limits_.vertices) return;
+    throw std::runtime_error("the surface has " + std::to_string(vertices) +
+                             " vertices, more than the " + std::to_string(limits_.vertices) +
+                             " that a tolerance may take: allow more, or make the mesh coarser");
   }
 
   bool mayRefine(int level) const {

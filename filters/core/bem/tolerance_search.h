@@ -15,7 +15,7 @@ namespace palpate {
 /// How far a search may go.
 struct ToleranceLimits {
   int levels = 0;       ///< refinements of the mesh that is given, at most
-  int vertices = 3000;  ///< of the finest mesh; double Green's functions take 72 bytes their square
+  int vertices = 3000;  ///< of any mesh; double Green's functions take 72 bytes their square
 };
 
 /// The cheapest settings found.

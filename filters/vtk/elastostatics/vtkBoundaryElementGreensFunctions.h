@@ -138,8 +138,8 @@ public:
 
   ///@{
   /**
-   * Estimate the relative error on a coarser mesh, or for small surfaces on a finer one
-   * (palpate::estimateError; 5 to 20 % of the time). Default on.
+   * Estimate the relative error (palpate::estimateError) on a coarser mesh, for 5 to 20 % of the time, or
+   * below 200 vertices on a finer one, for a second or two. Default on.
    */
   vtkSetMacro(EstimateError, bool);
   vtkGetMacro(EstimateError, bool);

@@ -48,7 +48,7 @@ public:
 
   ///@{
   /**
-   * How many vertices a refined surface may have. Default 3000, about a minute on two cores.
+   * How many vertices the surface may have, refined or not. Default 3000, about a minute on two cores.
    */
   vtkSetClampMacro(MaximumNumberOfVertices, int, 4, 100000);
   vtkGetMacro(MaximumNumberOfVertices, int);
