@@ -5,8 +5,10 @@
 
 #include <conversion.h>
 #include <model_arrays.h>
+#include <smooth_patch_arrays.h>
 
 #include "mesh/smooth_patches.h"
+#include "model/support.h"
 
 namespace palpate::app {
 namespace {
@@ -47,16 +49,8 @@ bool BodyLevels::hasSharpEdges(int level) const {
 
 Eigen::VectorXi BodyLevels::patches(const Level& level, TractionJumps jumps) const {
   if (jumps == TractionJumps::Nowhere) return Eigen::VectorXi::Zero(level.patches.size());
-  Eigen::VectorXi patches = level.patches;
-  if (jumps == TractionJumps::SharpEdges) return patches;
-  const int shift = patches.maxCoeff() + 1;
-  const Eigen::Matrix3Xi& triangles = level.mesh->triangles();
-  for (int f = 0; f < patches.size(); ++f) {
-    bool isHeld = true;
-    for (int v : triangles.col(f)) isHeld = isHeld && level.conditions.isFixed(v);
-    if (isHeld) patches[f] += shift;
-  }
-  return patches;
+  if (jumps == TractionJumps::SharpEdges) return level.patches;
+  return splitAtSupport(*level.mesh, level.conditions, level.patches);
 }
 
 ElasticModel BodyLevels::model(int level, TractionJumps jumps) const {
