@@ -112,6 +112,8 @@ void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
                      const Progress& progress, ErrorEstimate& estimate) {
   const bool isBlunt = hasBluntSupport(model);
   const auto fine = solve(isBlunt ? withSupportPatch(finer.model) : finer.model, options, progress);
+  const bool isWhole = greens.columnCount() >= int(model.conditions().freeNodes().size());
+  const auto whole = isWhole ? nullptr : solve(model, options, progress.part(1, 1));
   const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
   const ProbeLoads loads = loadsOf(model);
   addDiscretization(compareUnderLoads(*fine, finer.model.mesh(), isWhole ? greens : *whole,
