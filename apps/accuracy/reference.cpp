@@ -157,6 +157,9 @@ ComplianceTable readCompliances(const std::string& path) {
                                "czx,czy,czz, and found " +
                                std::to_string(numbers.size()) + " in " +
                                std::to_string(words.size()) + " fields");
+    if (std::all_of(numbers.begin() + 3, numbers.end(), [](double value) { return value == 0; }))
+      throw std::runtime_error(path + ", line " + std::to_string(row) +
+                               ": a compliance of zero has no relative error");
     table.points.insert(table.points.end(), numbers.begin(), numbers.begin() + 3);
     for (int column = 0; column < 3; ++column)
       for (int i = 0; i < 3; ++i) values.push_back(numbers[3 + 3 * i + column]);

@@ -37,10 +37,17 @@ struct Axis {
   }
 };
 
+/// What a logarithm has a place for.
+bool isShown(double value) {
+  return value > 0 && std::isfinite(value);
+}
+
+/// Over what is shown.
 Axis axisOf(const std::vector<Series>& all, bool isX, double from, double to) {
   double low = 1e300, high = 0;
   for (const Series& series : all)
     for (double value : isX ? series.x : series.y) {
+      if (!isShown(value)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
     }
@@ -87,6 +94,7 @@ void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis
   const bool isDashed = series.style == Series::Style::Dashed;
   Drawing::Line line{{}, series.colour, 1.5, isDashed};
   for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (!isShown(series.x[i]) || !isShown(series.y[i])) continue;
     const double px = x.at(series.x[i]), py = y.at(series.y[i]);
     line.points.push_back({px, py});
     if (hasMarks(series)) drawing.marks.push_back(markOf(series, i, px, py));

@@ -251,6 +251,8 @@ class Refusals(unittest.TestCase):
         self.refused("bad.csv, line 3: .*twelve", *held, "--reference", path)
         path.write_text("0,0,1,1,0,0,0,nan,0,0,0,1\n")
         self.refused("bad.csv, line 1: ", *held, "--reference", path)
+        path.write_text("0,0,1" + 9 * ",0" + "\n")
+        self.refused("bad.csv, line 1: a compliance of zero", *held, "--reference", path)
         path.write_text("x,y,z\n")
         self.refused("no compliance", *held, "--reference", path)
         path.write_text("0,0,1,1,0,0,0,1,0,0,0,1\n")
