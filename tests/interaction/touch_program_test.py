@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`palpate touch`, `palpate grasp` and `palpate devices`: what they print and write."""
 
+import json
 import re
 import unittest
 
 import numpy as np
 
-from support.touch import PRESS, RATE, REST, STROKE, Touch, block_model
+from support.touch import PRESS, RATE, REST, STROKE, Touch, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 from support.window import read_picture
 
@@ -44,6 +45,22 @@ class Headless(Program):
         self.run_well("touch", self.model, "--device", f"scripted:{copy}", "--headless", "--seconds",
                       1.7, "--forces", again)
         self.assertEqual(first.read_bytes(), again.read_bytes())
+
+    def test_a_recording_replays_under_the_mapping_of_its_scene(self):
+        write_recording(self.folder / "motion.txt", path(*PRESS))
+        scene, recording = self.folder / "scene.json", self.folder / "recording.txt"
+        scene.write_text(json.dumps({
+            "models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "hand"}],
+            "devices": [{"name": "hand", "type": "scripted", "file": "motion.txt",
+                         "mapping": {"origin": [0, 0, -0.001]}}]}))
+        forces = []
+        for arguments in (("--record", recording), ("--device", f"scripted:{recording}")):
+            file = self.folder / f"{len(forces)}.csv"
+            self.run_well("touch", "--scene", scene, "--headless", "--seconds", 1.7, "--forces", file,
+                          *arguments)
+            forces.append(np.loadtxt(file, delimiter=",", skiprows=1))
+        self.assertGreater(forces[0][:, 2].max(), 0.1)
+        self.assertTrue((forces[0] == forces[1]).all())
 
     def test_a_device_that_can_render_no_force_is_told(self):
         for limits, told in (("0 0 0", True), ("3.3 0 0", False)):

@@ -92,9 +92,13 @@ void HapticTouch::SetDevice(const SceneDevice& device)
 {
   this->Change();
   SceneDevice& first = this->Described().devices[this->Described().tools[0].device];
-  const std::string name = first.name;
+  const SceneDevice before = first;
   first = device;
-  first.name = name;
+  first.name = before.name;
+  if (device.type == DeviceType::Scripted)
+  {
+    first.mapping = before.mapping; // recordings are in their device's frame
+  }
 }
 
 void HapticTouch::SetRate(double rate)
