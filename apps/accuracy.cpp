@@ -145,19 +145,34 @@ void printStudy(const AccuracyStudy& study) {
 /// Files by their names, all made before the first is written.
 using Files = std::vector<std::pair<std::string, std::string>>;
 
+std::string besideReport(const Options& o, const char* ending) {
+  return std::filesystem::path(o.report).replace_extension(ending).string();
+}
+
+/// Before hours of work: nothing that is read may be overwritten.
+void requireOtherFiles(const Options& o) {
+  std::vector<std::string> written{o.csv, o.svg, o.image, o.report};
+  if (!o.report.empty())
+    for (const char* ending : {".csv", ".svg"}) written.push_back(besideReport(o, ending));
+  for (const std::string& path : written)
+    for (const std::string& read : {o.study.input, o.study.reference}) {
+      std::error_code ignored;
+      if (!path.empty() && std::filesystem::equivalent(path, read, ignored))
+        throw std::invalid_argument("the results would overwrite " + path +
+                                    ", which they are made from: give them another name");
+    }
+}
+
 void writeStudy(const AccuracyStudy& study, const Options& o) {
   Files files{{o.csv, accuracyCsv(study)}, {o.svg, accuracySvg(study, true)}};
   if (!o.report.empty()) {
-    const auto beside = [&](const char* ending) {
-      return std::filesystem::path(o.report).replace_extension(ending).string();
-    };
-    files.emplace_back(beside(".csv"), accuracyCsv(study));
-    files.emplace_back(beside(".svg"), accuracySvg(study, true));
+    files.emplace_back(besideReport(o, ".csv"), accuracyCsv(study));
+    files.emplace_back(besideReport(o, ".svg"), accuracySvg(study, true));
     files.emplace_back(o.report, accuracyPage(study));
   }
-  if (!o.image.empty()) drawAccuracy(study, o.image);
   for (const auto& [path, text] : files)
     if (!path.empty()) writeWholeFile(path, [&text = text](std::ostream& file) { file << text; });
+  if (!o.image.empty()) drawAccuracy(study, o.image);  // last, as it may lack a display
 }
 
 }  // namespace
@@ -175,9 +190,10 @@ void addAccuracy(CLI::App& program) {
       "  palpate accuracy data/kidney.vtp --levels 1 2 3 --report kidney_accuracy.html\n"
       "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat");
   command->callback([options] {
+    requireOtherFiles(*options);
     const AccuracyStudy study = studyAccuracy(options->study);
-    writeStudy(study, *options);
     printStudy(study);
+    writeStudy(study, *options);
   });
 }
 

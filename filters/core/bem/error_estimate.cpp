@@ -100,6 +100,7 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
     addDiscretization(
         compareUnderLoads(*coarse, mesh, *coarsest, third->model.mesh(), third->vertices, loads),
         factor, loads.length, estimate);
+    for (int& vertex : loads.vertices) vertex = third->vertices[vertex];
   }
   if (estimate.discretization < 0 || !hasBluntSupport(model)) return;
   const auto sharp = solve(withSupportPatch(coarser.model), options, progress.part(0.5, 0.8));
@@ -112,7 +113,9 @@ void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
                      const Progress& progress, ErrorEstimate& estimate) {
   const bool isBlunt = hasBluntSupport(model);
   const auto fine = solve(isBlunt ? withSupportPatch(finer.model) : finer.model, options, progress);
-  const bool isWhole = greens.columnCount() >= int(model.conditions().freeNodes().size());
+  const std::vector<int> free = model.conditions().freeNodes();
+  const bool isWhole =
+      std::all_of(free.begin(), free.end(), [&](int node) { return greens.hasColumn(node); });
   const auto whole = isWhole ? nullptr : solve(model, options, progress.part(1, 1));
   const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
   const ProbeLoads loads = loadsOf(model);
@@ -178,8 +181,8 @@ ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOpti
       estimate = attempted;
     } catch (const Aborted&) {
       throw;
-    } catch (const std::runtime_error&) {
-      // The other mesh's system is singular, or there is no OpenMesh.
+    } catch (const std::exception&) {
+      // The other mesh's system is singular or too large, or there is no OpenMesh.
     }
   };
   attempt([&](ErrorEstimate& attempted) {

@@ -72,6 +72,7 @@ class Search {
         options_(std::move(options)),
         progress_(progress) {
     options_.estimateError = false;  // done here
+    options_.solver = LinearSolver::Direct;
     options_.tolerance =
         std::clamp(kShareOfOthers * tolerance, kLeastIntegration, kMostIntegration);
     options_.precision = tolerance < kFloatTolerance ? Precision::Double : Precision::Float;
@@ -132,7 +133,8 @@ class Search {
     if (!isSmall && level > 0 && levels_[level - 1].vertices() >= kLeastVertices)
       return estimateByCoarser(level);
     const Level& own = levels_[level];
-    return estimateError(own.model, options_, *own.result.view());
+    const double done = 1 - std::pow(4.0, -level - 1);
+    return estimateError(own.model, options_, *own.result.view(), progress_.part(done, done));
   }
 
   ErrorEstimate estimateByFiner(int level) {
@@ -162,7 +164,7 @@ class Search {
   std::string describe(int level, double error) const {
     std::ostringstream text;
     text << "level " << level << ", " << levels_[level].vertices() << " vertices, "
-         << (options_.precision == Precision::Float ? "single" : "double")
+         << (levels_[level].result.floatMatrix.size() > 0 ? "single" : "double")
          << " precision, integrals to " << options_.tolerance << ": estimated error "
          << percent(error)
          << (kMargin * error <= tolerance_ ? ", by a fifth within " : ", not by a fifth within ")

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/mesh_defects.h"
 #include "mesh/open_mesh_surface.h"
@@ -28,6 +30,7 @@ constexpr double kLeastQuality = 0.3;  // 1 for an equilateral triangle
 
 /// What of a surface must be kept, and how long its edges were.
 struct Features {
+  OpenMesh::FPropHandleT<int> patch;
   OpenMesh::FPropHandleT<int> part;      ///< smooth patch, support and the rest apart
   OpenMesh::FPropHandleT<bool> support;  ///< all three corners fixed
   OpenMesh::VPropHandleT<int> origin;    ///< number in the surface
@@ -126,6 +129,7 @@ class ModNeighbourhood : public OpenMesh::Decimater::ModBaseT<Mesh> {
 Features addFeatures(Mesh& mesh, const std::vector<unsigned char>& boundaryTypes,
                      const Eigen::VectorXi& smoothPatches) {
   Features features;
+  mesh.add_property(features.patch);
   mesh.add_property(features.part);
   mesh.add_property(features.support);
   mesh.add_property(features.origin);
@@ -139,11 +143,14 @@ Features addFeatures(Mesh& mesh, const std::vector<unsigned char>& boundaryTypes
     for (const auto edge : mesh.voh_range(v)) sum += mesh.calc_edge_length(edge);
     mesh.property(features.size, v) = sum / mesh.valence(v);
   }
+  std::map<std::pair<int, bool>, int> numbers;
   for (const auto f : mesh.faces()) {
     bool support = true;
     for (const auto v : mesh.fv_range(f)) support = support && mesh.property(features.fixed, v);
     mesh.property(features.support, f) = support;
-    mesh.property(features.part, f) = 2 * smoothPatches[f.idx()] + support;
+    const std::pair<int, bool> part(smoothPatches[f.idx()], support);
+    mesh.property(features.part, f) = numbers.try_emplace(part, int(numbers.size())).first->second;
+    mesh.property(features.patch, f) = smoothPatches[f.idx()];
   }
   for (const auto v : mesh.vertices())
     mesh.property(features.kept, v) = isCorner(mesh, features, v);
@@ -170,7 +177,7 @@ CoarsenedSurface toSurface(const Mesh& mesh, const Features& features) {
   for (const auto f : mesh.faces()) {
     int k = 0;
     for (const auto v : mesh.fv_range(f)) surface.triangles(k++, f.idx()) = number[v.idx()];
-    surface.smoothPatches[f.idx()] = mesh.property(features.part, f) >> 1;
+    surface.smoothPatches[f.idx()] = mesh.property(features.patch, f);
   }
   return surface;
 }

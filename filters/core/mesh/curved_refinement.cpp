@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -29,19 +30,20 @@ Eigen::Vector3d patchNormal(const SurfaceMesh& mesh, const Eigen::VectorXi& patc
   return sum.normalized();
 }
 
-/// The middle of the cubic edge; `patch` is -1 for a straight one.
+/// The middle of the cubic edge; a straight one without a patch.
 Eigen::Vector3d edgeMiddle(const SurfaceMesh& mesh, const Eigen::VectorXi& patches, int a, int b,
-                           int patch) {
+                           std::optional<int> patch) {
   const Eigen::Vector3d pa = mesh.points().col(a), pb = mesh.points().col(b);
   Eigen::Vector3d middle = (pa + pb) / 2;
-  if (patch < 0) return middle;
-  const Eigen::Vector3d na = patchNormal(mesh, patches, a, patch),
-                        nb = patchNormal(mesh, patches, b, patch);
+  if (!patch) return middle;
+  const Eigen::Vector3d na = patchNormal(mesh, patches, a, *patch),
+                        nb = patchNormal(mesh, patches, b, *patch);
   return middle - ((pb - pa).dot(na) * na + (pa - pb).dot(nb) * nb) / 8;
 }
 
 struct Edge {
-  int patch, vertex;
+  std::optional<int> patch;  ///< none between two
+  int vertex;
 };
 using Ends = std::pair<int, int>;
 using Edges = std::map<Ends, Edge>;
@@ -61,7 +63,7 @@ Edges findEdges(const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
       if (isNew)
         ++next;
       else if (edge->second.patch != patches[f])
-        edge->second.patch = -1;
+        edge->second.patch.reset();
     }
   return edges;
 }

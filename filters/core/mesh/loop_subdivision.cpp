@@ -56,6 +56,9 @@ LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& 
   requireNoDefect(findMeshDefects(points, triangles, 1));
   OpenMeshSurface mesh = toOpenMesh(points, triangles);
   OpenMesh::Subdivider::Uniform::LoopT<OpenMeshSurface, double> loop;
+  std::size_t valence = 0;
+  for (const auto v : mesh.vertices()) valence = std::max<std::size_t>(valence, mesh.valence(v));
+  loop.init_weights(valence + 1);  // its own table ends at 50 and is not checked
   loop.attach(mesh);
   loop(1);
   loop.detach();

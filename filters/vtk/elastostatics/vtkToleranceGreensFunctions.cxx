@@ -16,7 +16,9 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkToleranceGreensFunctions);
@@ -52,6 +54,17 @@ public:
 private:
   std::vector<vtkSmartPointer<vtkPolyData>> Levels;
 };
+
+double volumeOf(const palpate::SurfaceMesh& mesh)
+{
+  double volume = 0;
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+  {
+    const Eigen::Vector3d corner = mesh.points().col(mesh.triangles()(0, f));
+    volume += mesh.triangleAreas()[f] * mesh.triangleNormals().col(f).dot(corner) / 3;
+  }
+  return volume;
+}
 } // namespace
 
 vtkToleranceGreensFunctions::vtkToleranceGreensFunctions()
@@ -102,6 +115,14 @@ void vtkToleranceGreensFunctions::Compute(
 
   const auto surface = posed(result.level);
   const palpate::ElasticModel model = modelOf(surface);
+  const double change = volumeOf(model.mesh()) / volumeOf(modelOf(posed(0)).mesh()) - 1;
+  if (std::abs(change) > this->ErrorTolerance)
+  {
+    result.greens.info.diagnostics.warnings.push_back(
+      "Loop's refinement has changed the volume by " + std::to_string(std::lround(100 * change)) +
+      " %, as the surface was taken to control a smooth one: where it is meant as it stands, give it "
+      "finer, or forbid levels");
+  }
   output->ShallowCopy(surface);
   convert::removeMeshResults(output);
   convert::setGreensFunctions(output, model, std::move(result.greens));
