@@ -176,5 +176,27 @@ INSTANTIATE_TEST_SUITE_P(Data, ModelsOfThePaper,
                                            Counts{"banana_seat", {36, 138, 546}, 0, 3, 245}),
                          [](const auto& info) { return std::string(info.param.name); });
 
+/// OpenMesh tabulates Loop's weights up to 49 edges a vertex; fans of CAD surfaces have more.
+TEST(LoopSubdivision, MovesVerticesOfManyEdgesAsLoopSays) {
+  for (int edges : {49, 50, 51, 200}) {
+    Eigen::Matrix3Xd points(3, edges + 2);
+    Eigen::Matrix3Xi triangles(3, 2 * edges);
+    for (int i = 0; i < edges; ++i) {
+      const double angle = 2 * M_PI * i / edges;
+      const int next = (i + 1) % edges;
+      points.col(i) << std::cos(angle), std::sin(angle), 0;
+      triangles.col(2 * i) << i, next, edges;
+      triangles.col(2 * i + 1) << next, i, edges + 1;
+    }
+    points.col(edges) << 0, 0, 1;
+    points.col(edges + 1) << 0, 0, -1;
+    const double share = 0.375 + std::cos(2 * M_PI / edges) / 4;
+    const double apex = 0.375 + share * share;  // that the apex keeps of itself
+    const LoopLevel level = subdivideLoop(points, triangles);
+    EXPECT_NEAR(level.points(2, edges), apex, 1e-12) << edges;
+    EXPECT_NEAR(level.points(2, edges + 1), -apex, 1e-12) << edges;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::test
