@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLengthShare = 0.2;  // of the root of the free surface's area
 constexpr double kLeastEdges = 2;
+constexpr double kTie = 1e-9;  // relative, far above rounding
 
 /// What vertices at `rows` do under three unit forces along the axes around a vertex: 3 #rows by 3,
 /// m/N. None if the load needs a column that is missing.
@@ -83,10 +84,12 @@ ProbeLoads chooseProbeLoads(const SurfaceMesh& mesh, const BoundaryConditions& c
   }
   loads.length = std::max(kLengthShare * std::sqrt(area), kLeastEdges * mesh.meanEdgeLength());
   for (int i = 0; i < count; ++i) {
-    Eigen::Index next;
-    if (!(distance.maxCoeff(&next) > 0)) break;  // fixed vertices have the distance 0
-    loads.vertices.push_back(static_cast<int>(next));
-    moveAway(loads.vertices.back());
+    const double farthest = distance.maxCoeff();
+    if (!(farthest > 0)) break;  // fixed vertices have the distance 0
+    int next = 0;                // the first of those that are equally far, whatever the unit
+    while (distance[next] < (1 - kTie) * farthest) ++next;
+    loads.vertices.push_back(next);
+    moveAway(next);
   }
   return loads;
 }
