@@ -48,7 +48,7 @@ forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/m
   PATTERN "${include}(model|bem|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
   PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
-  EXCEPT "filters/core/(simd/|mesh/cgal_surface[.]h|haptics/json_reader[.]h)")
+  EXCEPT "filters/core/(simd/|mesh/(cgal|open_mesh)_surface[.]h|haptics/json_reader[.]h)")
 forbid("the header that reads JSON leaves its sources" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}haptics/json_reader[.]h" EXCEPT "filters/core/haptics/.*[.]cpp$")
 forbid("CGAL's own header leaves its sources" FILES ${all_core}
@@ -56,7 +56,9 @@ forbid("CGAL's own header leaves its sources" FILES ${all_core}
 forbid("CGAL outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}CGAL" EXCEPT "filters/core/mesh/(.*[.]cpp|cgal_surface[.]h)$")
 forbid("OpenMesh outside the mesh room" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
-  PATTERN "${include}OpenMesh" EXCEPT "filters/core/mesh/.*[.]cpp$")
+  PATTERN "${include}OpenMesh" EXCEPT "filters/core/mesh/(.*[.]cpp|open_mesh_surface[.]h)$")
+forbid("OpenMesh's own header leaves its sources" FILES ${all_core}
+  PATTERN "${include}mesh/open_mesh_surface[.]h" EXCEPT "filters/core/mesh/.*[.]cpp$")
 forbid("hidapi outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}hidapi" EXCEPT "filters/core/haptics/hidapi_bus[.]cpp$")
 forbid("JSON outside the header that reads it"
