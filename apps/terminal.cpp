@@ -150,13 +150,13 @@ void printErrors(vtkPolyData* model) {
     return number(100 * fieldNumber(model, name, -1), 3) + " %";
   };
   printRow("estimated error", percent("ErrorEstimate"));
-  printRow("  of contact compliances", percent("ContactErrorEstimate"));
-  printRow("  at most, 95 % of loads", percent("MostErrorEstimate"));
-  printRow("  loads spread over", number(fieldNumber(model, "ErrorLoadLength", -1), 3));
-  printRow("  by mesh", percent("DiscretizationError"));
-  printRow("  by integrals", percent("IntegrationError"));
-  printRow("  by solver", percent("SolverError"));
-  printRow("  by storage", percent("StorageError"));
+  printRow("error of contact compliances", percent("ContactErrorEstimate"));
+  printRow("error of 95 % of loads", percent("MostErrorEstimate"));
+  printRow("loads spread over", number(fieldNumber(model, "ErrorLoadLength", -1), 3));
+  printRow("error by mesh", percent("DiscretizationError"));
+  printRow("error by integrals", percent("IntegrationError"));
+  printRow("error by solver", percent("SolverError"));
+  printRow("error by storage", percent("StorageError"));
 }
 
 void printWarnings(vtkPolyData* surface) {
