@@ -119,6 +119,10 @@ std::string number(double value, int digits) {
   return text.str();
 }
 
+std::string percent(double share) {
+  return std::isnan(share) ? "–" : number(100 * share, 3) + " %";
+}
+
 std::string vectorText(const double* v) {
   return number(v[0]) + "  " + number(v[1]) + "  " + number(v[2]);
 }
@@ -146,17 +150,15 @@ std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name) {
 void printErrors(vtkPolyData* model) {
   const double error = fieldNumber(model, "ErrorEstimate", -1);
   if (error < 0) return;
-  const auto percent = [&](const char* name) {
-    return number(100 * fieldNumber(model, name, -1), 3) + " %";
-  };
-  printRow("estimated error", percent("ErrorEstimate"));
-  printRow("error of contact compliances", percent("ContactErrorEstimate"));
-  printRow("error of 95 % of loads", percent("MostErrorEstimate"));
+  const auto share = [&](const char* name) { return percent(fieldNumber(model, name, -1)); };
+  printRow("estimated error", share("ErrorEstimate"));
+  printRow("error of contact compliances", share("ContactErrorEstimate"));
+  printRow("error of 95 % of loads", share("MostErrorEstimate"));
   printRow("loads spread over", number(fieldNumber(model, "ErrorLoadLength", -1), 3));
-  printRow("error by mesh", percent("DiscretizationError"));
-  printRow("error by integrals", percent("IntegrationError"));
-  printRow("error by solver", percent("SolverError"));
-  printRow("error by storage", percent("StorageError"));
+  printRow("error by mesh", share("DiscretizationError"));
+  printRow("error by integrals", share("IntegrationError"));
+  printRow("error by solver", share("SolverError"));
+  printRow("error by storage", share("StorageError"));
 }
 
 void printWarnings(vtkPolyData* surface) {

@@ -42,6 +42,8 @@ void printRow(const std::string& label, const std::string& value);
 /// @throws std::runtime_error if what was printed on stdout did not arrive.
 void requirePrinted();
 std::string number(double value, int digits = 4);
+/// A share as percent, a dash for NaN.
+std::string percent(double share);
 std::string vectorText(const double* components);
 
 /// A one-tuple field array, or a fallback.

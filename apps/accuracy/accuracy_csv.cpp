@@ -4,23 +4,12 @@
 #include <cmath>
 
 #include "accuracy/accuracy_study.h"
-#include "terminal.h"
+#include "report/csv.h"
 
 namespace palpate::app {
-namespace {
 
-/// A number in full, nothing for none.
-std::string field(double value) {
-  return "," + (std::isnan(value) ? std::string() : number(value, 9));
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-}  // namespace
+using csv::field;
+using csv::quoted;
 
 std::string accuracyCsv(const AccuracyStudy& study) {
   std::string text =

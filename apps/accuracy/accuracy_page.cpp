@@ -11,10 +11,6 @@
 namespace palpate::app {
 namespace {
 
-std::string percent(double value) {
-  return std::isnan(value) ? "–" : number(100 * value, 3) + " %";
-}
-
 std::string secondsText(const Quartiles& time) {
   return number(time.median, 3) + " (" + number(time.lower, 3) + " to " + number(time.upper, 3) +
          ")";

@@ -21,8 +21,7 @@ BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const std::string& subd
   const ElasticModel first = convert::modelOf(surface, kSmoothAngle, Domain::Interior);
   const bool isGiven = convert::hasGivenPatches(surface, first.mesh());
   material_ = first.material();
-  levels_.push_back(
-      {std::make_shared<SurfaceMesh>(first.mesh()), first.conditions(), first.smoothPatches(), {}});
+  levels_.push_back({first.sharedMesh(), first.conditions(), first.smoothPatches(), {}});
   while (count() < levels) {
     const Level& coarse = levels_.back();
     const Eigen::Matrix3Xd& points = coarse.mesh->points();

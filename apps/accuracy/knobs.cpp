@@ -69,15 +69,18 @@ class Knobs {
     }
   }
 
-  void addTolerances() {
+  /// Powers of ten down to the last, which is the best.
+  void addPowersOfTen(double Setting::*member, int last, bool isPrecompute) {
     Setting best = base_;
-    best.tolerance = 1e-8;
-    for (int exponent = 1; exponent <= 8; ++exponent) {
+    best.*member = std::pow(10.0, last);
+    for (int exponent = -1; exponent >= last; --exponent) {
       Setting setting = base_;
-      setting.tolerance = std::pow(10.0, -exponent);
-      add(number(setting.tolerance), setting, true, best);
+      setting.*member = std::pow(10.0, exponent);
+      add(number(setting.*member), setting, isPrecompute, best);
     }
   }
+
+  void addTolerances() { addPowersOfTen(&Setting::tolerance, -8, true); }
 
   void addSolvers() {
     add("double", base_, true, base_, "level, all else as by default");
@@ -123,15 +126,7 @@ class Knobs {
     }
   }
 
-  void addContacts() {
-    Setting best = base_;
-    best.contactTolerance = 1e-12;
-    for (int exponent = 1; exponent <= 12; ++exponent) {
-      Setting setting = base_;
-      setting.contactTolerance = std::pow(10.0, -exponent);
-      add(number(setting.contactTolerance), setting, false, best);
-    }
-  }
+  void addContacts() { addPowersOfTen(&Setting::contactTolerance, -12, false); }
 
   void addCollocations() {
     addOnLevels(

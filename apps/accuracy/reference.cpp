@@ -92,11 +92,7 @@ Reference Reference::finest(const BodyLevels& body, const Query& query, const Se
     Setting setting = base;
     setting.level = level;
     setting.jumps = TractionJumps::Support;  // converges faster where the support ends
-    const auto greens =
-        computeGreens(body, all, setting, threads, [&](double fraction, const char* stage) {
-          part.report(fraction, stage);
-          return true;
-        }).take();
+    const auto greens = computeGreens(body, all, setting, threads, part.callback()).take();
     for (double radius : radii) {
       setting.radius = radius;
       const auto prepared = query.prepare(greens, setting);

@@ -72,14 +72,11 @@ double Sweep::now() const {
 }
 
 void Sweep::runGroup(Group& group, const Progress& progress) {
-  const auto report = [&](double fraction, const char* stage) {
-    progress.report(fraction, stage);
-    return true;
-  };
   const Setting& first = group.settings.front();
   const double wall = wallSeconds(), begun = now();
   try {
-    BoundaryElementResult result = computeGreens(body_, query_, first, options_.threads, report);
+    BoundaryElementResult result =
+        computeGreens(body_, query_, first, options_.threads, progress.callback());
     const double seconds = now() - begun;
     const std::size_t peakBytes = result.info.diagnostics.peakBytes;
     const std::size_t rows = 3 * std::size_t(body_.mesh(first.level).vertexCount()),

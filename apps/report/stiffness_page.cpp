@@ -27,9 +27,6 @@ using Range = std::array<double, 2>;
 std::string cell(double value) {
   return std::isnan(value) ? "–" : number(value, 3);
 }
-std::string percent(double value) {
-  return std::isnan(value) ? "–" : number(100 * value, 3) + " %";
-}
 
 /// The middle of all values of a point array of several surfaces, from `low` to `high` of them.
 Range rangeOf(const std::vector<std::pair<vtkPolyData*, const char*>>& fields, double low,

@@ -1,25 +1,13 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <cmath>
-
+#include "report/csv.h"
 #include "report/stiffness_study.h"
 
 namespace palpate::app {
-namespace {
 
-/// A number in full, nothing for none.
-std::string field(double value) {
-  return "," + (std::isnan(value) ? std::string() : number(value, 9));
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-}  // namespace
+using csv::field;
+using csv::quoted;
 
 std::string studyCsv(const StiffnessStudy& study) {
   std::string text =

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 namespace palpate {
 
@@ -29,6 +30,14 @@ class Progress {
   /// @throws Aborted if the callback asks for it.
   void report(double fraction, const char* stage) const {
     if (callback_ && !callback_(begin_ + (end_ - begin_) * fraction, stage)) throw Aborted();
+  }
+
+  /// What work of its own kind is given, to report within this range.
+  ProgressCallback callback() const {
+    return [*this](double fraction, const char* stage) {
+      report(fraction, stage);
+      return true;
+    };
   }
 
   /// The sub-range [begin, end] of this range.

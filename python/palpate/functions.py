@@ -111,7 +111,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     Returns
     -------
     vtkPolyData
-        The surface, refined if a `tolerance` called for it, with its Green's functions, provenance and diagnostics as arrays.
+        The surface, refined if a `tolerance` called for it, with its Green's functions, provenance
+        and diagnostics as arrays.
 
     Raises
     ------

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "model/support.h"
 #include "support/problems.h"
@@ -18,12 +17,6 @@ namespace {
 
 bool below(const Eigen::Vector3d& x) {
   return x.z() < 1e-9;
-}
-
-ElasticModel withSupportPatch(const ElasticModel& model) {
-  return ElasticModel(
-      std::make_shared<SurfaceMesh>(model.mesh()), model.material(), model.conditions(),
-      splitAtSupport(model.mesh(), model.conditions(), model.smoothPatches()), model.domain());
 }
 
 std::shared_ptr<const GreensFunctions> greensOf(const ElasticModel& model, bool estimated) {
@@ -40,13 +33,10 @@ struct TrueError {
 /// Two refinements on the same surface, and the error by the difference from the second, continued
 /// with the order that the three show. Where that is too much, one refinement and the order 5/4.
 TrueError trueError(const ElasticModel& model, const GreensFunctions& greens) {
-  std::vector<int> vertices(model.mesh().vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  ProbeLoads loads = chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
+  SpreadLoads loads = errorLoads(model);
   loads.length = greens.info().diagnostics.error.loadLength;
   const auto differenceFrom = [&](const ElasticModel& finer) {
-    return compareUnderLoads(*greensOf(finer, false), finer.mesh(), greens, model.mesh(), vertices,
-                             loads);
+    return compareUnderLoads(*greensOf(finer, false), finer.mesh(), greens, model.mesh(), loads);
   };
   const auto once = refinedModel(model);
   const LoadDifferences first = differenceFrom(once->model);
@@ -183,11 +173,9 @@ TEST(ErrorEstimate, TellsItsCausesApart) {
   EXPECT_LT(b.storage, 1e-6 * a.storage);
   EXPECT_NEAR(a.total(), a.discretization + a.integration + a.solver + a.storage, 1e-15);
   // On one mesh: what rough integrals and arithmetic change is within what they are said to.
-  std::vector<int> vertices(model.mesh().vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  const ProbeLoads loads = chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
+  const SpreadLoads loads = errorLoads(model);
   const double changed = LoadDifferences::mean(
-      compareUnderLoads(*exact, model.mesh(), *rough, model.mesh(), vertices, loads).field);
+      compareUnderLoads(*exact, model.mesh(), *rough, model.mesh(), loads).field);
   EXPECT_LT(changed, a.integration + a.solver + a.storage);
   EXPECT_GT(changed, 0.01 * (a.integration + a.solver + a.storage));
 }

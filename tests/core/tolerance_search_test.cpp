@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,12 +57,9 @@ LoadDifferences errorsOf(Levels& levels, int level, const GreensFunctions& green
   BoundaryElementOptions options;
   options.precision = next.mesh().vertexCount() < 2400 ? Precision::Float : Precision::Double;
   const auto finer = computeGreens(next, options);
-  std::vector<int> vertices(model.mesh().vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  ProbeLoads loads = chooseProbeLoads(model.mesh(), model.conditions(), 40);
+  SpreadLoads loads = chooseSpreadLoads(model.mesh(), model.conditions(), 40);
   loads.length = length;
-  LoadDifferences errors =
-      compareUnderLoads(*finer, next.mesh(), greens, model.mesh(), vertices, loads);
+  LoadDifferences errors = compareUnderLoads(*finer, next.mesh(), greens, model.mesh(), loads);
   for (std::vector<double>* list : {&errors.field, &errors.contact})
     for (double& error : *list) error /= 1 - std::pow(2, -1.25);
   return errors;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -16,19 +15,13 @@
 namespace palpate {
 namespace {
 
+constexpr int kLoads = 24;
 constexpr double kSupportedOrder = 1.25, kSquareOrder = 2;
 constexpr double kUsualCondition = 1e4;
 constexpr double kLockingRatio = 0.25;  // of edges to walls, half of that of the coarser mesh
 constexpr int kLeastVertices = 50, kLeastOfThird = 30;
 constexpr int kMostRefined = 400;        // vertices of a model that is refined for its estimate
 constexpr double kQuadratureShare = 30;  // errors of answers over that of integrated rotations
-
-/// The same with a support whose traction ends at its rim.
-ElasticModel withSupportPatch(const ElasticModel& model) {
-  return ElasticModel(
-      std::make_shared<SurfaceMesh>(model.mesh()), model.material(), model.conditions(),
-      splitAtSupport(model.mesh(), model.conditions(), model.smoothPatches()), model.domain());
-}
 
 int patchCount(const Eigen::VectorXi& patches) {
   return static_cast<int>(std::set<int>(patches.begin(), patches.end()).size());
@@ -64,22 +57,11 @@ std::shared_ptr<const GreensFunctions> solve(const ElasticModel& model,
   all.tolerance = options.tolerance;
   all.reciprocal = options.reciprocal;
   all.threads = options.threads;
-  return computeBoundaryElementGreensFunctions(model, all,
-                                               [&](double fraction, const char*) {
-                                                 progress.report(fraction, "estimate");
-                                                 return true;
-                                               })
-      .take();
-}
-
-std::vector<int> firstVertices(const SurfaceMesh& mesh) {
-  std::vector<int> vertices(mesh.vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  return vertices;
-}
-
-ProbeLoads loadsOf(const ElasticModel& model) {
-  return chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
+  const auto report = [&](double fraction, const char*) {
+    progress.report(fraction, "estimate");
+    return true;
+  };
+  return computeBoundaryElementGreensFunctions(model, all, report).take();
 }
 
 void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
@@ -88,7 +70,7 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
   const double order = discretizationOrder(greens), gain = std::pow(coarser.ratio, order);
   const auto coarse = solve(coarser.model, options, progress.part(0, 0.5));
   const SurfaceMesh& mesh = coarser.model.mesh();
-  ProbeLoads loads = loadsOf(coarser.model);
+  SpreadLoads loads = errorLoads(coarser.model);
   const LoadDifferences differences =
       compareUnderLoads(greens, model.mesh(), *coarse, mesh, coarser.vertices, loads);
   if (!differences.field.empty()) {
@@ -96,7 +78,7 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
   } else if (const auto third = coarsenedModel(coarser.model, kLeastOfThird)) {
     const auto coarsest = solve(third->model, options, progress.part(0.8, 1));
     const double factor = 1 / (std::pow(third->ratio, order) - 1) / gain;
-    loads = loadsOf(third->model);
+    loads = errorLoads(third->model);
     addDiscretization(
         compareUnderLoads(*coarse, mesh, *coarsest, third->model.mesh(), third->vertices, loads),
         factor, loads.length, estimate);
@@ -104,8 +86,8 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
   }
   if (estimate.discretization < 0 || !hasBluntSupport(model)) return;
   const auto sharp = solve(withSupportPatch(coarser.model), options, progress.part(0.5, 0.8));
-  addDiscretization(compareUnderLoads(*sharp, mesh, *coarse, mesh, firstVertices(mesh), loads),
-                    1 / coarser.ratio, loads.length, estimate);
+  addDiscretization(compareUnderLoads(*sharp, mesh, *coarse, mesh, loads), 1 / coarser.ratio,
+                    loads.length, estimate);
 }
 
 void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
@@ -118,13 +100,17 @@ void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
       std::all_of(free.begin(), free.end(), [&](int node) { return greens.hasColumn(node); });
   const auto whole = isWhole ? nullptr : solve(model, options, progress.part(1, 1));
   const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
-  const ProbeLoads loads = loadsOf(model);
-  addDiscretization(compareUnderLoads(*fine, finer.model.mesh(), isWhole ? greens : *whole,
-                                      model.mesh(), finer.vertices, loads),
-                    isBlunt ? 1 : gain / (gain - 1), loads.length, estimate);
+  const SpreadLoads loads = errorLoads(model);
+  addDiscretization(
+      compareUnderLoads(*fine, finer.model.mesh(), isWhole ? greens : *whole, model.mesh(), loads),
+      isBlunt ? 1 : gain / (gain - 1), loads.length, estimate);
 }
 
 }  // namespace
+
+SpreadLoads errorLoads(const ElasticModel& model) {
+  return chooseSpreadLoads(model.mesh(), model.conditions(), kLoads);
+}
 
 void addDiscretization(const LoadDifferences& differences, double factor, double length,
                        ErrorEstimate& estimate) {
@@ -156,9 +142,8 @@ ErrorEstimate otherErrors(const GreensFunctions& greens) {
 }
 
 std::optional<OtherMesh> refinedModel(const ElasticModel& model) {
-  return otherMesh(model,
-                   refineCurved(model.mesh(), model.conditions().types(), model.smoothPatches()),
-                   firstVertices(model.mesh()));
+  return otherMesh(
+      model, refineCurved(model.mesh(), model.conditions().types(), model.smoothPatches()), {});
 }
 
 std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVertices) {

@@ -16,7 +16,8 @@ namespace palpate {
 /// Another mesh of a model.
 struct OtherMesh {
   ElasticModel model;
-  std::vector<int> vertices;  ///< #vertices of the coarser one, their numbers in the finer
+  std::vector<int> vertices;  ///< of a coarser one, their numbers in the model; of a finer one, the
+                              ///< model's are the first
   double ratio;  ///< edges of the coarser over the finer's: the root of the numbers of vertices
 };
 
@@ -48,8 +49,8 @@ double discretizationOrder(const GreensFunctions& finer);
 /// What of an estimate one mesh tells: all but the discretisation's error.
 ErrorEstimate otherErrors(const GreensFunctions& greens);
 
-/// Loads of an estimate.
-constexpr int kErrorLoads = 24;
+/// The loads of an estimate.
+SpreadLoads errorLoads(const ElasticModel& model);
 
 /// Adds differences times a factor to the discretisation's errors.
 /// @param length  of the loads, m.

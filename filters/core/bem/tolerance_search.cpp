@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -37,17 +36,13 @@ struct Level {
   BoundaryElementResult result;
 
   int vertices() const { return model.mesh().vertexCount(); }
-  ProbeLoads loads() const {
-    return chooseProbeLoads(model.mesh(), model.conditions(), kErrorLoads);
-  }
+  SpreadLoads loads() const { return errorLoads(model); }
 };
 
 /// @param loads  of the coarser level or one before it.
-LoadDifferences differenceOf(const Level& finer, const Level& coarser, const ProbeLoads& loads) {
-  std::vector<int> vertices(coarser.vertices());
-  std::iota(vertices.begin(), vertices.end(), 0);
+LoadDifferences differenceOf(const Level& finer, const Level& coarser, const SpreadLoads& loads) {
   return compareUnderLoads(*finer.result.view(), finer.model.mesh(), *coarser.result.view(),
-                           coarser.model.mesh(), vertices, loads);
+                           coarser.model.mesh(), loads);
 }
 
 double edgeRatio(const Level& finer, const Level& coarser) {
@@ -56,7 +51,7 @@ double edgeRatio(const Level& finer, const Level& coarser) {
 
 /// The order that three levels show under the loads of the coarsest, between one and two.
 double observedOrder(const Level& fine, const Level& middle, const Level& coarse) {
-  const ProbeLoads loads = coarse.loads();
+  const SpreadLoads loads = coarse.loads();
   const double before = LoadDifferences::mean(differenceOf(middle, coarse, loads).field),
                after = LoadDifferences::mean(differenceOf(fine, middle, loads).field);
   return std::clamp(std::log(before / after) / std::log(edgeRatio(fine, middle)), 1.0, 2.0);
@@ -98,10 +93,7 @@ class Search {
   void solve(int level) {
     for (int k = static_cast<int>(levels_.size()); k <= level; ++k) {
       const Progress part = progress_.part(1 - std::pow(4.0, -k), 1 - std::pow(4.0, -k - 1));
-      const ProgressCallback callback = [&](double fraction, const char* stage) {
-        part.report(fraction, stage);
-        return true;
-      };
+      const ProgressCallback callback = part.callback();
       const ElasticModel model = model_(k);
       requireAllowed(model.mesh().vertexCount());
       try {

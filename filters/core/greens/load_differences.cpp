@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace palpate {
@@ -66,9 +67,9 @@ double LoadDifferences::most(const std::vector<double>& differences) {
   return sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(0.95 * sorted.size()))];
 }
 
-ProbeLoads chooseProbeLoads(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
-                            int count) {
-  ProbeLoads loads;
+SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                              int count) {
+  SpreadLoads loads;
   double area = 0;
   Eigen::VectorXd distance =
       Eigen::VectorXd::Constant(mesh.vertexCount(), std::numeric_limits<double>::max());
@@ -96,7 +97,7 @@ ProbeLoads chooseProbeLoads(const SurfaceMesh& mesh, const BoundaryConditions& c
 
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
                                   const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
-                                  const std::vector<int>& vertices, const ProbeLoads& loads) {
+                                  const std::vector<int>& vertices, const SpreadLoads& loads) {
   const std::vector<int> rows = coarser.info().conditions.freeNodes();
   std::vector<int> finerRows;
   Eigen::VectorXd weights(3 * rows.size());
@@ -117,6 +118,14 @@ LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMes
                                   fine->middleRows<3>(at).norm());
   }
   return differences;
+}
+
+LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
+                                  const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
+                                  const SpreadLoads& loads) {
+  std::vector<int> vertices(coarserMesh.vertexCount());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return compareUnderLoads(finer, finerMesh, coarser, coarserMesh, vertices, loads);
 }
 
 }  // namespace palpate

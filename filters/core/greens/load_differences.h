@@ -12,7 +12,7 @@
 namespace palpate {
 
 /// Unit forces that are spread around points of a surface like (1 - r / length)+, r the distance.
-struct ProbeLoads {
+struct SpreadLoads {
   std::vector<int> vertices;  ///< free ones in the middles
   double length = 0;          ///< m
 };
@@ -22,8 +22,8 @@ struct ProbeLoads {
 /// area.
 /// @param mesh   the coarsest that the loads are meant for; two of its edges are the least length.
 /// @param count  at most so many.
-ProbeLoads chooseProbeLoads(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
-                            int count);
+SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
+                              int count);
 
 /// How the answers of a finer and a coarser mesh of one body differ under loads, relative to the
 /// finer's: one entry a load for which both have all columns.
@@ -41,6 +41,11 @@ struct LoadDifferences {
 /// @param loads     of the coarser mesh.
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
                                   const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
-                                  const std::vector<int>& vertices, const ProbeLoads& loads);
+                                  const std::vector<int>& vertices, const SpreadLoads& loads);
+
+/// Of a finer mesh whose first vertices are the coarser one's.
+LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
+                                  const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
+                                  const SpreadLoads& loads);
 
 }  // namespace palpate

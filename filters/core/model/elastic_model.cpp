@@ -42,6 +42,12 @@ std::uint64_t ElasticModel::fingerprint() const {
   return modelFingerprint(*mesh_, conditions_, smoothPatches_, material_.poissonRatio(), domain_);
 }
 
+ElasticModel withSupportPatch(const ElasticModel& model) {
+  return ElasticModel(model.sharedMesh(), model.material(), model.conditions(),
+                      splitAtSupport(model.mesh(), model.conditions(), model.smoothPatches()),
+                      model.domain());
+}
+
 std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                                const Eigen::VectorXi& smoothPatches, double poissonRatio,
                                Domain domain) {

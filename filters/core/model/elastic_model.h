@@ -26,13 +26,14 @@ class ElasticModel {
   /// @param smoothPatches  #F numbers of the smooth patches across whose borders traction may jump
   ///                       (see findSmoothPatches).
   /// @throws std::invalid_argument if sizes differ, if no node is free, if the support leaves a
-  /// rigid
-  ///         motion of an interior domain's body free, or if an exterior domain has nested shells.
+  ///         rigid motion of an interior domain's body free, or if an exterior domain has nested
+  ///         shells.
   ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
                Domain domain = Domain::Interior);
 
   const SurfaceMesh& mesh() const { return *mesh_; }
+  const std::shared_ptr<const SurfaceMesh>& sharedMesh() const { return mesh_; }
   const Material& material() const { return material_; }
   const BoundaryConditions& conditions() const { return conditions_; }
   const Eigen::VectorXi& smoothPatches() const { return smoothPatches_; }
@@ -48,6 +49,9 @@ class ElasticModel {
   Eigen::VectorXi smoothPatches_;
   Domain domain_;
 };
+
+/// The model with smooth patches that end at the rim of its support (splitAtSupport).
+ElasticModel withSupportPatch(const ElasticModel& model);
 
 /// Hash of what Green's functions depend on besides Young's modulus, which only scales them:
 /// points, triangles, boundary types, smooth patches, Poisson's ratio, domain.

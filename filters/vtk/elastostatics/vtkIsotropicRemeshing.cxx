@@ -33,10 +33,6 @@ void vtkIsotropicRemeshing::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "SmoothAngle: " << this->SmoothAngle << "\n";
 }
 
-namespace
-{
-} // namespace
-
 void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
   const palpate::SurfaceMesh mesh(convert::pointsOf(input), convert::trianglesOf(input));
