@@ -9,6 +9,7 @@
 
 #include "accuracy/accuracy_study.h"
 #include "commands.h"
+#include "subdivision_option.h"
 #include "terminal.h"
 #include "whole_file.h"
 
@@ -70,11 +71,7 @@ void addSweep(CLI::App& command, AccuracyOptions& o) {
   command.add_option("--levels", o.levels, "Levels of the surface, 1 as it is")
       ->check(CLI::Range(1, 9))
       ->capture_default_str();
-  command
-      .add_option("--subdivision", o.subdivision,
-                  "loop, or flat: levels keep the shape and its sharp edges")
-      ->check(CLI::IsMember({"loop", "flat"}))
-      ->capture_default_str();
+  addSubdivision(command, o.subdivision);
   command
       .add_option("--base-level", o.baseLevel,
                   "Level on which the other knobs are varied; by default the last but one")

@@ -16,6 +16,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "subdivision_option.h"
 #include "support_options.h"
 #include "terminal.h"
 
@@ -30,6 +31,7 @@ struct Options {
   double integrationTolerance = 1e-6, smoothAngle = 30;
   double tolerance = 0;  // of the error, 0 for none
   int levels = 4, vertices = 3000;
+  std::string subdivision = "flat";
   bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
   int threads = 0;
@@ -53,6 +55,7 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
       ->needs(tolerance)
       ->capture_default_str()
       ->group(chosen);
+  addSubdivision(command, o.subdivision)->needs(tolerance)->group(chosen);
   command.add_option("--precision", o.precision, "double, mixed or float")
       ->check(CLI::IsMember({"double", "mixed", "float"}))
       ->excludes(tolerance)
@@ -126,6 +129,7 @@ vtkSmartPointer<vtkBoundaryElementGreensFunctions> method(const Options& o) {
     chooser->SetErrorTolerance(o.tolerance);
     chooser->SetMaximumNumberOfLevels(o.levels);
     chooser->SetMaximumNumberOfVertices(o.vertices);
+    chooser->SetSubdivision(static_cast<int>(subdivisionNamed(o.subdivision)));
     filter = chooser;
   } else {
     filter = vtkSmartPointer<vtkBoundaryElementGreensFunctions>::New();

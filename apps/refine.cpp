@@ -2,25 +2,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <read_surface.h>
-#include <vtkLoopRefinement.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkSurfaceRefinement.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "commands.h"
+#include "subdivision_option.h"
 #include "terminal.h"
 
 namespace palpate::app {
 
 void addRefine(CLI::App& program) {
   struct Options {
-    std::string input, output;
+    std::string input, output, subdivision = "loop";
     int levels = 1;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("refine", "Subdivide a surface by Loop's scheme");
+  CLI::App* command = program.add_subcommand("refine", "Subdivide a surface");
   command->add_option("input", options->input, "A closed triangle surface")->required();
   requireWritable(
       command->add_option("output", options->output, "The finer surface, .vtp")->required(),
@@ -28,13 +29,15 @@ void addRefine(CLI::App& program) {
   command->add_option("--levels", options->levels, "How often every triangle is split in four")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
+  addSubdivision(*command, options->subdivision);
   command->footer(
-      "The surface becomes smooth; a new vertex is fixed if both ends of its edge are.\n"
+      "A new vertex is fixed if both ends of its edge are.\n"
       "  palpate refine data/kidney.vtp kidney.vtp --levels 2");
   command->callback([options] {
-    vtkNew<vtkLoopRefinement> filter;
+    vtkNew<vtkSurfaceRefinement> filter;
     filter->SetInputData(readSurface(options->input));
     filter->SetNumberOfLevels(options->levels);
+    filter->SetSubdivision(static_cast<int>(subdivisionNamed(options->subdivision)));
     const auto fine = run(filter);
     writeSurface(fine, options->output);
     printRow("vertices", std::to_string(fine->GetNumberOfPoints()));

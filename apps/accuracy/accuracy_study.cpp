@@ -20,6 +20,7 @@
 #include "accuracy/reference.h"
 #include "accuracy/sweep.h"
 #include "progress_bar.h"
+#include "subdivision_option.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -119,6 +120,13 @@ void requireSensible(const AccuracyOptions& options) {
         "a point source's field is known on the whole surface: the reference kelvin is one of "
         "`--query greens`");
   const bool isFile = options.reference != "finest" && options.reference != "kelvin";
+  const int last = *std::max_element(options.levels.begin(), options.levels.end());
+  if (options.referenceLevel > 0 && options.reference != "finest")
+    throw std::invalid_argument("--reference-level is one of the reference finest, not of " +
+                                options.reference);
+  if (options.referenceLevel > 0 && options.referenceLevel < last)
+    throw std::invalid_argument("--reference-level " + std::to_string(options.referenceLevel) +
+                                " is coarser than the last of --levels, " + std::to_string(last));
   if (!isFile) return;
   if (options.query != "compliance")
     throw std::invalid_argument("the file " + options.reference +
@@ -139,7 +147,7 @@ class AccuracyRun {
         levels_(options.levels),
         body_(surfaceOf(options),
               std::max(*std::max_element(levels_.begin(), levels_.end()), options.referenceLevel),
-              options.subdivision),
+              subdivisionNamed(options.subdivision)),
         progress_([](double fraction, const char* stage) {
           drawProgress(fraction, stage);
           return !isInterrupted();

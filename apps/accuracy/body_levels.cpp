@@ -17,21 +17,18 @@ constexpr double kSmoothAngle = 30;  // degrees, as `precompute` takes it
 
 }  // namespace
 
-BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const std::string& subdivision) {
+BodyLevels::BodyLevels(vtkPolyData* surface, int levels, Subdivision subdivision) {
   const ElasticModel first = convert::modelOf(surface, kSmoothAngle, Domain::Interior);
-  const bool isGiven = convert::hasGivenPatches(surface, first.mesh());
+  const bool isInherited =
+      subdivision == Subdivision::Curved || convert::hasGivenPatches(surface, first.mesh());
   material_ = first.material();
   levels_.push_back({first.sharedMesh(), first.conditions(), first.smoothPatches(), {}});
   while (count() < levels) {
     const Level& coarse = levels_.back();
-    const Eigen::Matrix3Xd& points = coarse.mesh->points();
-    const Eigen::Matrix3Xi& triangles = coarse.mesh->triangles();
-    LoopLevel made =
-        subdivision == "flat" ? subdivideFlat(points, triangles) : subdivideLoop(points, triangles);
+    SubdivisionLevel made = subdivide(*coarse.mesh, coarse.patches, subdivision);
     auto mesh = std::make_shared<SurfaceMesh>(std::move(made.points), made.triangles);
-    Eigen::VectorXi patches = findSmoothPatches(*mesh, kSmoothAngle);
-    for (int f = 0; isGiven && f < patches.size(); ++f)
-      patches[f] = coarse.patches[made.parentTriangle[f]];
+    const Eigen::VectorXi patches = isInherited ? refineSmoothPatches(made, coarse.patches)
+                                                : findSmoothPatches(*mesh, kSmoothAngle);
     const BoundaryConditions conditions(refineBoundaryTypes(made, coarse.conditions.types()));
     levels_.push_back({mesh, conditions, patches, std::move(made)});
   }

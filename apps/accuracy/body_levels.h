@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accuracy/settings.h"
-#include "mesh/flat_subdivision.h"
+#include "mesh/subdivision.h"
 #include "model/elastic_model.h"
 
 class vtkPolyData;
@@ -19,9 +19,8 @@ namespace palpate::app {
 class BodyLevels {
  public:
   /// @param surface      with boundary types, material and, if given, smooth patches.
-  /// @param subdivision  "loop", or "flat".
   /// @throws std::invalid_argument with a sentence for a surface that cannot be used.
-  BodyLevels(vtkPolyData* surface, int levels, const std::string& subdivision);
+  BodyLevels(vtkPolyData* surface, int levels, Subdivision subdivision);
 
   int count() const { return static_cast<int>(levels_.size()); }
   const SurfaceMesh& mesh(int level) const { return *at(level).mesh; }
@@ -40,7 +39,7 @@ class BodyLevels {
     std::shared_ptr<const SurfaceMesh> mesh;
     BoundaryConditions conditions;
     Eigen::VectorXi patches;
-    LoopLevel made;  ///< of the level before, without points
+    SubdivisionLevel made;  ///< of the level before, without points
   };
   Eigen::VectorXi patches(const Level& level, TractionJumps jumps) const;
   const Level& at(int level) const { return levels_.at(level - 1); }

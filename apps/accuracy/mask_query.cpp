@@ -221,7 +221,9 @@ double relativeError(const Answer& answer, const Eigen::VectorXd& values,
       return answer.weights.segment(first, answer.group)
           .dot(v.segment(first, answer.group).cwiseAbs2());
     };
-    worst = std::max(worst, std::sqrt(squares(difference) / squares(reference)));
+    const double error = std::sqrt(squares(difference) / squares(reference));
+    if (std::isnan(error)) return error;
+    worst = std::max(worst, error);
   }
   return worst;
 }

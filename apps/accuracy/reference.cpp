@@ -135,6 +135,7 @@ ComplianceTable readCompliances(const std::string& path) {
   ComplianceTable table;
   std::vector<double> values;
   std::string line;
+  bool hasNames = false;
   for (int row = 1; std::getline(file, line); ++row) {
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream text(line);
@@ -146,7 +147,10 @@ ComplianceTable readCompliances(const std::string& path) {
       const double value = std::strtod(word.c_str(), &end);
       if (*end == '\0' && std::isfinite(value)) numbers.push_back(value);
     }
-    if (numbers.empty() && table.points.empty()) continue;  // names of the columns
+    if (numbers.empty() && !hasNames && table.points.empty()) {
+      hasNames = true;  // of the columns
+      continue;
+    }
     if (numbers.size() != 12 || words.size() != 12)
       throw std::runtime_error(path + ", line " + std::to_string(row) +
                                ": expected twelve finite numbers, x,y,z,cxx,cxy,cxz,cyx,cyy,cyz,"

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <new>
+#include <stdexcept>
 
 namespace palpate::app {
 namespace {
@@ -22,6 +24,21 @@ AlignedBuffer<float> rounded(const AlignedBuffer<double>& matrix, std::size_t co
   AlignedBuffer<float> result(count);
   std::copy_n(matrix.data(), count, result.data());
   return result;
+}
+
+/// What is wrong with a setting that this body is too hard for.
+template <class Work>
+std::string failureOf(const Work& work) {
+  try {
+    work();
+  } catch (const Aborted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory";
+  } catch (const std::runtime_error& failure) {
+    return failure.what();
+  }
+  return {};
 }
 
 }  // namespace
@@ -74,7 +91,7 @@ double Sweep::now() const {
 void Sweep::runGroup(Group& group, const Progress& progress) {
   const Setting& first = group.settings.front();
   const double wall = wallSeconds(), begun = now();
-  try {
+  const std::string failure = failureOf([&] {
     BoundaryElementResult result =
         computeGreens(body_, query_, first, options_.threads, progress.callback());
     const double seconds = now() - begun;
@@ -91,16 +108,16 @@ void Sweep::runGroup(Group& group, const Progress& progress) {
         first.precision == Precision::Float ? asFloat.bytes : 2 * asFloat.bytes;
     const Stored computed{result.take(), bytes};
     for (const Setting& setting : group.settings) {
-      ask(setting, setting.floatStorage ? asFloat : computed, seconds);
-      samples_.at(setting.key()).peakBytes = peakBytes;
+      Sample& sample = samples_.at(setting.key());
+      sample.peakBytes = peakBytes;
+      if (sample.failure.empty())
+        sample.failure =
+            failureOf([&] { ask(setting, setting.floatStorage ? asFloat : computed, seconds); });
     }
-  } catch (const Aborted&) {
-    throw;
-  } catch (const std::runtime_error& failure) {  // a setting that this body is too hard for
-    group.hasFailed = true;
-    for (const Setting& setting : group.settings)
-      samples_.at(setting.key()).failure = failure.what();
-  }
+  });
+  group.hasFailed = !failure.empty();
+  for (const Setting& setting : group.settings)
+    if (group.hasFailed) samples_.at(setting.key()).failure = failure;
   group.spent += wallSeconds() - wall;
 }
 
@@ -116,6 +133,7 @@ void Sweep::ask(const Setting& setting, const Stored& stored, double seconds) {
   sample.querySeconds.push_back((now() - begun) / runs);
   sample.precomputeSeconds.push_back(seconds);
   sample.answer = query->answer();
+  if (!sample.answer.values.allFinite()) throw std::runtime_error("the answer is not finite");
   sample.storedBytes = stored.bytes;
   sample.columns = stored.greens->columnCount();
 }

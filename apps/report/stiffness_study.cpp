@@ -10,11 +10,11 @@
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIsotropicRemeshing.h>
-#include <vtkLoopRefinement.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkReferenceBoundaryConditions.h>
 #include <vtkStiffnessArtifacts.h>
+#include <vtkSurfaceRefinement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ bool isModel(vtkPolyData* surface) {
 }
 
 Surface refined(vtkPolyData* surface, int level) {
-  vtkNew<vtkLoopRefinement> filter;
+  vtkNew<vtkSurfaceRefinement> filter;
   filter->SetInputData(surface);
   filter->SetNumberOfLevels(level - 1);
   return run(filter);

@@ -11,6 +11,7 @@ from .arguments import (
     COLLOCATIONS,
     DOMAINS,
     PRECISIONS,
+    SUBDIVISIONS,
     choice,
     flag,
     listed,
@@ -31,10 +32,10 @@ from .PalpateElastostatics import (
     vtkCapacitanceSolve,
     vtkElasticMeshRepair,
     vtkIsotropicRemeshing,
-    vtkLoopRefinement,
     vtkPointContact,
     vtkReferenceBoundaryConditions,
     vtkStiffnessArtifacts,
+    vtkSurfaceRefinement,
     vtkSurfaceStiffness,
     vtkToleranceGreensFunctions,
 )
@@ -47,7 +48,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                tolerance=None, columns=None, domain="interior", reciprocal=True,
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
-               estimate_error=True, max_levels=4, max_vertices=3000):
+               estimate_error=True, max_levels=None, max_vertices=None, subdivision=None):
     """Compute the Green's functions of an elastic body from its surface.
 
     Parameters
@@ -68,9 +69,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         wanted and slower where all are; or all in float (half the memory and time, about 1e-5).
     tolerance : float, optional
         Largest relative error, above 0 and below 1. The cheapest settings whose estimated error meets it
-        are chosen: how often the surface is refined by Loop's scheme, precision, integration tolerance
-        (none of which may then be given, nor `columns`). The field array `ToleranceSteps` says what was
-        tried. The error is that of displacements and contact compliances, relative, under unit forces
+        are chosen: how often the surface is refined, precision, integration tolerance (none of which
+        may then be given, nor `columns`). The field array `ToleranceSteps` says what was tried. The error is that of displacements and contact compliances, relative, under unit forces
         spread like a cone over the length `ErrorLoadLength`, which 95 % of the loads do not exceed.
     columns : array_like of int, optional
         Vertices whose Green's functions are computed, by number or as a mask of n booleans; all free
@@ -105,8 +105,10 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     estimate_error : bool
         Estimate the error on a coarser mesh, or for small surfaces on a finer one: the field arrays
         `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails.
-    max_levels, max_vertices : int
-        How often, and up to how many vertices, a `tolerance` may refine the surface.
+    max_levels, max_vertices : int, optional
+        How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
+    subdivision : {"loop", "flat", "curved"}, optional
+        As in `refine`, how a `tolerance` refines; flat by default.
 
     Returns
     -------
@@ -156,6 +158,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         conditions.SetPoissonRatio(number(poisson, "Poisson's ratio"))
 
     if tolerance is None:
+        if not (max_levels is None and max_vertices is None and subdivision is None):
+            raise Error("max_levels, max_vertices and subdivision go with a tolerance: give one, or "
+                        "refine the surface yourself")
         bem = vtkBoundaryElementGreensFunctions()
         bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
         bem.SetSolver(choice(solver, {"direct": 0, "iterative": 1}, "solver"))
@@ -169,8 +174,12 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                         "them out, or the tolerance")
         bem = vtkToleranceGreensFunctions()
         bem.SetErrorTolerance(number(tolerance, "tolerance"))
-        bem.SetMaximumNumberOfLevels(whole_number(max_levels, "max_levels", 9))
-        bem.SetMaximumNumberOfVertices(whole_number(max_vertices, "max_vertices", 100000))
+        if max_levels is not None:
+            bem.SetMaximumNumberOfLevels(whole_number(max_levels, "max_levels", 9))
+        if max_vertices is not None:
+            bem.SetMaximumNumberOfVertices(whole_number(max_vertices, "max_vertices", 100000))
+        if subdivision is not None:
+            bem.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
     if support_patch is not None:
         bem.SetSupportPatch(flag(support_patch, "support_patch"))
     bem.SetInputData(run(conditions))
@@ -504,8 +513,8 @@ def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progre
     return run(algorithm, progress_callback(progress))
 
 
-def refine(surface, levels=1):
-    """Subdivide a closed surface by Loop's scheme, with its boundary types and other data.
+def refine(surface, levels=1, subdivision="loop"):
+    """Subdivide a closed surface, with its boundary types and other data.
 
     Parameters
     ----------
@@ -513,6 +522,10 @@ def refine(surface, levels=1):
         A closed triangle surface.
     levels : int
         How often every triangle is split in four, 0 to 8.
+    subdivision : {"loop", "flat", "curved"}
+        What the surface stands for: the control mesh of a smooth one, towards which its vertices move
+        (Loop 1987); itself; or a surface through its vertices, smooth but for edges sharper than 30
+        degrees (Vlachos et al. 2001).
 
     Returns
     -------
@@ -530,9 +543,10 @@ def refine(surface, levels=1):
     >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
     620
     """
-    refinement = vtkLoopRefinement()
+    refinement = vtkSurfaceRefinement()
     refinement.SetInputData(surface_of(surface))
     refinement.SetNumberOfLevels(whole_number(levels, "levels", 8))
+    refinement.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
     return run(refinement)
 
 

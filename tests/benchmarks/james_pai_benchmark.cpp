@@ -38,7 +38,7 @@ constexpr Table3Row kTable3[] = {
 ElasticModel paperModel(const std::string& name, int steps) {
   test::DataModel model = test::readDataModel(name);
   for (int step = 0; step < steps; ++step) {
-    const LoopLevel level = subdivideLoop(model.shape.points, model.shape.triangles);
+    const SubdivisionLevel level = subdivideLoop(model.shape.points, model.shape.triangles);
     model.boundaryTypes = refineBoundaryTypes(level, model.boundaryTypes);
     model.shape = {level.points, level.triangles};
   }

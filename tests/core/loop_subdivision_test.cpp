@@ -21,10 +21,10 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-14;  // sums of up to 12 terms near 1
 
-LoopLevel refine(const Shape& shape) {
+SubdivisionLevel refine(const Shape& shape) {
   return subdivideLoop(shape.points, shape.triangles);
 }
-Shape shapeOf(const LoopLevel& level) {
+Shape shapeOf(const SubdivisionLevel& level) {
   return {level.points, level.triangles};
 }
 
@@ -49,7 +49,7 @@ std::vector<Shape> controlMeshes() {
 TEST(LoopSubdivision, AVertexMovesByLoopsMask) {
   // (1 - n b) x + b sum of neighbours, b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n.
   for (const Shape& shape : controlMeshes()) {
-    const LoopLevel level = refine(shape);
+    const SubdivisionLevel level = refine(shape);
     std::vector<std::set<int>> neighbours(shape.points.cols());
     for (const auto& [edge, opposite] : edgesOf(shape)) {
       neighbours[edge.first].insert(edge.second);
@@ -67,7 +67,7 @@ TEST(LoopSubdivision, AVertexMovesByLoopsMask) {
 
 TEST(LoopSubdivision, AnEdgesVertexIsThreeEighthsOfItsEndsAndAnEighthOfTheOpposites) {
   for (const Shape& shape : controlMeshes()) {
-    const LoopLevel level = refine(shape);
+    const SubdivisionLevel level = refine(shape);
     const auto edges = edgesOf(shape);
     ASSERT_EQ(level.points.cols(), shape.points.cols() + int(edges.size()));
     std::set<std::pair<int, int>> seen;
@@ -85,13 +85,13 @@ TEST(LoopSubdivision, AnEdgesVertexIsThreeEighthsOfItsEndsAndAnEighthOfTheOpposi
 }
 
 TEST(LoopSubdivision, OldVerticesKeepTheirNumbers) {
-  const LoopLevel level = refine(icosphere(1));
+  const SubdivisionLevel level = refine(icosphere(1));
   for (int v = 0; v < 42; ++v) EXPECT_EQ(level.parents.col(v), Eigen::Vector2i(v, v));
 }
 
 TEST(LoopSubdivision, EachTriangleBecomesFourThatLieInItTheSameWayRound) {
   for (const Shape& shape : controlMeshes()) {
-    const LoopLevel level = refine(shape);
+    const SubdivisionLevel level = refine(shape);
     ASSERT_EQ(level.triangles.cols(), 4 * shape.triangles.cols());
     std::vector<int> children(shape.triangles.cols(), 0);
     for (Eigen::Index f = 0; f < level.triangles.cols(); ++f) {
@@ -124,8 +124,9 @@ TEST(LoopSubdivision, CommutesWithAffineMaps) {
       0, 3, -1,        //
       0.5, 0, 1;
   const Eigen::Vector3d shift(1, -2, 3);
-  const LoopLevel level = refine(shape);
-  const LoopLevel mapped = refine({(stretch * shape.points).colwise() + shift, shape.triangles});
+  const SubdivisionLevel level = refine(shape);
+  const SubdivisionLevel mapped =
+      refine({(stretch * shape.points).colwise() + shift, shape.triangles});
   EXPECT_LT((mapped.points - ((stretch * level.points).colwise() + shift)).norm(),
             100 * kRounding);  // some 20 points of size 5
   EXPECT_EQ(mapped.triangles, level.triangles);
@@ -154,7 +155,7 @@ TEST_P(ModelsOfThePaper, HaveTheVertexCountsOfTables1And2) {
   std::vector<unsigned char> types = model.boundaryTypes;
   for (int level = 1; level <= 3; ++level) {
     if (level > 1) {
-      const LoopLevel finer = refine(shape);
+      const SubdivisionLevel finer = refine(shape);
       types = refineBoundaryTypes(finer, types);
       shape = shapeOf(finer);
     }
@@ -192,7 +193,7 @@ TEST(LoopSubdivision, MovesVerticesOfManyEdgesAsLoopSays) {
     points.col(edges + 1) << 0, 0, -1;
     const double share = 0.375 + std::cos(2 * M_PI / edges) / 4;
     const double apex = 0.375 + share * share;  // that the apex keeps of itself
-    const LoopLevel level = subdivideLoop(points, triangles);
+    const SubdivisionLevel level = subdivideLoop(points, triangles);
     EXPECT_NEAR(level.points(2, edges), apex, 1e-12) << edges;
     EXPECT_NEAR(level.points(2, edges + 1), -apex, 1e-12) << edges;
   }

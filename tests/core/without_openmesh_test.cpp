@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/coarsening.h"
 #include "mesh/loop_subdivision.h"
 #include "support/refusals.h"
 #include "support/shapes.h"
@@ -14,6 +15,15 @@ TEST(WithoutOpenMesh, RefinementSaysWhatIsMissing) {
   const Shape shape = icosphere(0);
   EXPECT_EQ(refusal<std::runtime_error>([&] { subdivideLoop(shape.points, shape.triangles); }),
             "refinement needs OpenMesh, which this build of Palpate was made without");
+}
+
+TEST(WithoutOpenMesh, CoarseningSaysWhatIsMissing) {
+  const Shape shape = icosphere(1);
+  const std::vector<unsigned char> types(shape.points.cols(), 0);
+  const Eigen::VectorXi patches = Eigen::VectorXi::Zero(shape.triangles.cols());
+  EXPECT_EQ(refusal<std::runtime_error>(
+                [&] { coarsen(shape.points, shape.triangles, types, patches, 20); }),
+            "coarsening needs OpenMesh, which this build of Palpate was made without");
 }
 
 }  // namespace

@@ -238,6 +238,10 @@ class Refusals(unittest.TestCase):
         self.refused("off the surface", *held, "--at", 0, 0, 9)
         self.refused("two levels or more", *held, "--levels", 1)
         self.refused("have no level 3", *held, "--levels", 1, 2, "--base-level", 3)
+        self.refused("is coarser than the last of --levels, 2", *held, "--levels", 1, 2,
+                     "--reference-level", 1)
+        self.refused("one of the reference finest", *held, "--query", "greens", "--reference", "kelvin",
+                     "--reference-level", 3)
         self.refused("query greens", *held, "--reference", "kelvin")
         self.refused("levels", *held, "--levels", 0)
         self.refused("missing.vtp", "missing.vtp")
@@ -253,6 +257,8 @@ class Refusals(unittest.TestCase):
         self.refused("bad.csv, line 1: ", *held, "--reference", path)
         path.write_text("0,0,1" + 9 * ",0" + "\n")
         self.refused("bad.csv, line 1: a compliance of zero", *held, "--reference", path)
+        path.write_text("x,y,z\nx,y,z\n0,0,1,1,0,0,0,1,0,0,0,1\n")
+        self.refused("bad.csv, line 2: ", *held, "--reference", path)
         path.write_text("x,y,z\n")
         self.refused("no compliance", *held, "--reference", path)
         path.write_text("0,0,1,1,0,0,0,1,0,0,0,1\n")

@@ -12,7 +12,8 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_ids, as_vtk
-from support.surfaces import PROGRAM, copy_of, failure_of, lower_cap, points_of, sphere, sphere_model
+from support.surfaces import (PROGRAM, copy_of, cube, failure_of, lower_cap, points_of, sphere,
+                              sphere_model, volume)
 
 KIDNEY = palpate.example("kidney")
 
@@ -26,6 +27,7 @@ def chooser(tolerance, levels=4, surface=None):
     algorithm.SetInputData(surface if surface is not None else palpate.read(KIDNEY))
     algorithm.SetErrorTolerance(tolerance)
     algorithm.SetMaximumNumberOfLevels(levels)
+    algorithm.SetSubdivision(palpate.vtkSurfaceRefinement.LOOP)  # the kidney's vertices control it
     return algorithm
 
 
@@ -89,7 +91,7 @@ class Tolerance(unittest.TestCase):
         surface = copy_of(palpate.read(KIDNEY))
         tag = np.arange(surface.GetNumberOfPoints(), dtype=float)
         surface.GetPointData().AddArray(as_vtk(tag, "Tag", 1))
-        model = palpate.precompute(surface, None, None, tolerance=0.1)
+        model = palpate.precompute(surface, None, None, tolerance=0.1, subdivision="loop")
         self.assertTrue((palpate.array(model, "Tag")[:len(tag)] == tag).all())
 
     def test_keeps_a_surface_that_is_fine_enough(self):
@@ -97,6 +99,48 @@ class Tolerance(unittest.TestCase):
         surface.GetPointData().AddArray(as_vtk(lower_cap(surface), "BoundaryType", 1, np.uint8))
         model = palpate.precompute(surface, 1e4, 0.3, tolerance=0.4)
         self.assertEqual(model.GetNumberOfPoints(), 162)
+
+    def test_of_another_youngs_modulus_searches_no_more(self):
+        surface = palpate.read(KIDNEY)
+        conditions = palpate.vtkReferenceBoundaryConditions()
+        conditions.SetInputData(surface)
+        algorithm = chooser(0.1)
+        algorithm.SetInputConnection(conditions.GetOutputPort())
+        searched = []
+        algorithm.AddObserver("ProgressEvent", lambda *_: searched.append(algorithm.GetProgressText()))
+        compliances = []
+        for young in (8e3, 16e3):
+            searched.clear()
+            conditions.SetYoungsModulus(young)
+            algorithm.Update()
+            model = algorithm.GetOutput()
+            self.assertEqual("assemble" in searched, young == 8e3, searched)
+            self.assertEqual(palpate.array(model, "YoungsModulus")[0], young)
+            stiff = palpate.stiffness(model, radius=0.016)
+            compliances.append(1 / np.nanmean(palpate.array(stiff, "StiffnessNorm")))
+        self.assertAlmostEqual(compliances[0] / compliances[1], 2, delta=1e-9)
+
+    def test_keeps_the_shape_of_a_cube(self):
+        surface = cube(2)
+        fixed = points_of(surface)[:, 2] == 0
+        for subdivision in (None, "curved"):
+            model = palpate.precompute(surface, 1e4, 0.3, fixed=fixed, tolerance=0.15,
+                                       subdivision=subdivision)
+            self.assertGreater(model.GetNumberOfPoints(), surface.GetNumberOfPoints())
+            self.assertAlmostEqual(volume(model), volume(surface), delta=1e-12)
+            self.assertFalse(model.GetFieldData().HasArray("Warnings"))
+
+    def test_says_where_refinement_has_changed_the_shape(self):
+        surface = cube(2)
+        with self.assertWarnsRegex(palpate.ModelWarning, "changed the volume by -[0-9]+ %.*the curved or "
+                                                         "the flat subdivision"):
+            palpate.precompute(surface, 1e4, 0.3, fixed=points_of(surface)[:, 2] == 0, tolerance=0.15,
+                               subdivision="loop")
+
+    def test_limits_without_a_tolerance_are_refused(self):
+        for settings in ({"max_levels": 1}, {"max_vertices": 100}, {"subdivision": "flat"}):
+            with self.assertRaisesRegex(palpate.Error, "go with a tolerance"):
+                palpate.precompute(palpate.read(KIDNEY), None, None, **settings)
 
     def test_out_of_reach_is_refused_with_the_error_that_is(self):
         sentence = failure_of(chooser(0.01, levels=0))
@@ -118,7 +162,7 @@ class Tolerance(unittest.TestCase):
 
     def test_can_be_aborted(self):
         with self.assertRaises(palpate.Aborted):
-            palpate.precompute(palpate.read(KIDNEY), None, None, tolerance=0.05,
+            palpate.precompute(palpate.read(KIDNEY), None, None, tolerance=0.05, subdivision="loop",
                                progress=lambda fraction, stage: fraction < 0.5)
 
 
@@ -132,7 +176,7 @@ class Program(unittest.TestCase):
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
 
     def test_prints_what_it_tried_and_what_it_estimates(self):
-        done = self.run_program("precompute", KIDNEY, self.model, "--tolerance", 0.1)
+        done = self.run_program("precompute", KIDNEY, self.model, "--tolerance", 0.1, "--subdivision", "loop")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("tried"), 3)
         self.assertIn("estimated error", done.stdout)
@@ -145,6 +189,8 @@ class Program(unittest.TestCase):
                                     (("--tolerance", 0.01, "--max-levels", 0), "out of reach"),
                                     (("--tolerance", 0.1, "--columns", 1), "--columns"),
                                     (("--tolerance", 2), "--tolerance"),
+                                    (("--tolerance", 0.1, "--subdivision", "cubic"), "--subdivision"),
+                                    (("--subdivision", "flat"), "--tolerance"),
                                     (("--max-levels", 1), "--tolerance")):
             done = self.run_program("precompute", KIDNEY, self.model, *arguments)
             self.assertGreater(done.returncode, 0, arguments)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""vtkElasticMeshRepair and vtkLoopRefinement: what they do to data on the surface."""
+"""vtkElasticMeshRepair and vtkSurfaceRefinement: what they do to data on the surface."""
 
 import unittest
 
@@ -12,7 +12,7 @@ from vtkmodules.vtkFiltersCore import vtkStripper
 import palpate
 from palpate.arrays import as_vtk
 from support.surfaces import (copy_of, cube, failure_of, points_of, polydata, quad_cube, sphere, sphere_model,
-                              triangles_of)
+                              triangles_of, volume)
 
 
 def repaired(surface):
@@ -24,11 +24,6 @@ def repaired(surface):
     changes = (palpate.array(output, "RepairChanges")
                if output.GetFieldData().HasArray("RepairChanges") else [])
     return output, changes
-
-
-def volume(surface):
-    a, b, c = (points_of(surface)[triangles_of(surface)[:, k]] for k in range(3))
-    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
 
 
 class Repair(unittest.TestCase):
@@ -105,7 +100,7 @@ class Repair(unittest.TestCase):
 
 class Refinement(unittest.TestCase):
     def refined(self, surface, levels=1):
-        algorithm = palpate.vtkLoopRefinement()
+        algorithm = palpate.vtkSurfaceRefinement()
         algorithm.SetInputData(surface)
         algorithm.SetNumberOfLevels(levels)
         algorithm.Update()
@@ -117,6 +112,23 @@ class Refinement(unittest.TestCase):
         twice = self.refined(surface, 2)
         self.assertTrue((triangles_of(twice) == triangles_of(once_and_again)).all())
         self.assertLess(np.abs(points_of(twice) - points_of(once_and_again)).max(), 1e-15)
+
+    def test_flat_subdivision_keeps_the_body_and_curved_keeps_edges_and_rounds_the_rest(self):
+        for surface, subdivision, expected in ((cube(2), "flat", 1), (cube(2), "curved", 1),
+                                               (sphere(1), "flat", volume(sphere(1)))):
+            fine = palpate.refine(surface, 2, subdivision)
+            self.assertEqual(fine.GetNumberOfCells(), 16 * surface.GetNumberOfCells())
+            self.assertAlmostEqual(volume(fine), expected, delta=1e-12)
+        ball = palpate.refine(sphere(2), 1, "curved")
+        self.assertLess(np.abs(np.linalg.norm(points_of(ball), axis=1) - 1).max(), 2e-3)
+        self.assertGreater(volume(ball), volume(sphere(2)))
+
+    def test_curved_subdivision_keeps_patches_through_all_levels(self):
+        fine = palpate.refine(cube(2), 2, "curved")
+        self.assertEqual(np.bincount(palpate.array(fine, "SmoothPatch")).tolist(), 6 * [8 * 16])
+        self.assertFalse(fine.GetFieldData().HasArray("SmoothAngle"))
+        with self.assertRaisesRegex(palpate.Error, "subdivision"):
+            palpate.refine(cube(2), 1, "cubic")
 
     def test_an_edge_between_fixed_vertices_is_fixed(self):
         surface = palpate.read(palpate.example("kidney"))

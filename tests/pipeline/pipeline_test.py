@@ -17,7 +17,7 @@ import palpate
 from palpate.errors import silenced
 from support.surfaces import Executions, copy_of, points_of, sphere, sphere_model
 
-FILTERS = (palpate.vtkElasticMeshRepair, palpate.vtkLoopRefinement,
+FILTERS = (palpate.vtkElasticMeshRepair, palpate.vtkSurfaceRefinement,
            palpate.vtkReferenceBoundaryConditions, palpate.vtkBoundaryElementGreensFunctions,
            palpate.vtkCapacitanceSolve, palpate.vtkVertexPressureMask, palpate.vtkSurfaceStiffness,
            palpate.vtkPointContact)
@@ -39,7 +39,7 @@ class Chain:
     def __init__(self, path):
         self.reader = vtkXMLPolyDataReader()
         self.reader.SetFileName(str(path))
-        self.refinement = palpate.vtkLoopRefinement()
+        self.refinement = palpate.vtkSurfaceRefinement()
         self.refinement.SetInputConnection(self.reader.GetOutputPort())
         self.conditions = palpate.vtkReferenceBoundaryConditions()
         self.conditions.SetInputConnection(self.refinement.GetOutputPort())

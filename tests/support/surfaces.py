@@ -41,6 +41,11 @@ def triangles_of(surface):
     return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
+def volume(surface):
+    a, b, c = (points_of(surface)[triangles_of(surface)[:, k]] for k in range(3))
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+
+
 def icosahedron():
     g = (1 + 5**0.5) / 2
     points = np.array([(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g),

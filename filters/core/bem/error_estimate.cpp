@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "mesh/coarsening.h"
-#include "mesh/curved_refinement.h"
+#include "mesh/edge_subdivision.h"
 #include "model/support.h"
 
 namespace palpate {
@@ -33,17 +33,17 @@ bool hasBluntSupport(const ElasticModel& model) {
          patchCount(model.smoothPatches());
 }
 
-template <class Surface>
-std::optional<OtherMesh> otherMesh(const ElasticModel& model, Surface surface,
-                                   std::vector<int> vertices) {
+/// The model on another mesh; none if that has defects or leaves the body free.
+std::optional<OtherMesh> otherMesh(const ElasticModel& model, Eigen::Matrix3Xd points,
+                                   Eigen::Matrix3Xi triangles, std::vector<unsigned char> types,
+                                   Eigen::VectorXi patches) {
   try {
-    auto mesh =
-        std::make_shared<SurfaceMesh>(std::move(surface.points), std::move(surface.triangles));
+    auto mesh = std::make_shared<SurfaceMesh>(std::move(points), std::move(triangles));
     const double ratio = double(mesh->vertexCount()) / model.mesh().vertexCount();
-    return OtherMesh{
-        ElasticModel(mesh, model.material(), BoundaryConditions(std::move(surface.boundaryTypes)),
-                     std::move(surface.smoothPatches), model.domain()),
-        std::move(vertices), std::sqrt(ratio > 1 ? ratio : 1 / ratio)};
+    return OtherMesh{ElasticModel(mesh, model.material(), BoundaryConditions(std::move(types)),
+                                  std::move(patches), model.domain()),
+                     {},
+                     std::sqrt(ratio > 1 ? ratio : 1 / ratio)};
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -142,8 +142,11 @@ ErrorEstimate otherErrors(const GreensFunctions& greens) {
 }
 
 std::optional<OtherMesh> refinedModel(const ElasticModel& model) {
-  return otherMesh(
-      model, refineCurved(model.mesh(), model.conditions().types(), model.smoothPatches()), {});
+  SubdivisionLevel level = subdivideCurved(model.mesh(), model.smoothPatches());
+  std::vector<unsigned char> types = refineBoundaryTypes(level, model.conditions().types());
+  Eigen::VectorXi patches = refineSmoothPatches(level, model.smoothPatches());
+  return otherMesh(model, std::move(level.points), std::move(level.triangles), std::move(types),
+                   std::move(patches));
 }
 
 std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVertices) {
@@ -152,8 +155,11 @@ std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVert
   CoarsenedSurface surface = coarsen(model.mesh().points(), model.mesh().triangles(),
                                      model.conditions().types(), model.smoothPatches(), count / 4);
   if (surface.points.cols() > count / 2) return std::nullopt;
-  std::vector<int> vertices = std::move(surface.vertices);
-  return otherMesh(model, std::move(surface), std::move(vertices));
+  std::optional<OtherMesh> coarser =
+      otherMesh(model, std::move(surface.points), std::move(surface.triangles),
+                std::move(surface.boundaryTypes), std::move(surface.smoothPatches));
+  if (coarser) coarser->vertices = std::move(surface.vertices);
+  return coarser;
 }
 
 ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOptions& options,

@@ -21,8 +21,8 @@ struct OtherMesh {
   double ratio;  ///< edges of the coarser over the finer's: the root of the numbers of vertices
 };
 
-/// A mesh of half as long edges through the model's vertices (refineCurved); none if that surface
-/// has defects.
+/// A mesh of half as long edges through the model's vertices (subdivideCurved); none if that
+/// surface has defects.
 std::optional<OtherMesh> refinedModel(const ElasticModel& model);
 
 /// A mesh of a quarter of the model's vertices (coarsen); none where rims and corners leave more

@@ -22,6 +22,8 @@ constexpr double kDoubtful = 2;     // predictions may be wrong by this factor
 constexpr int kLeastVertices = 50;  // of a level that tells of the next one's error
 constexpr int kSmall = 200;  // vertices; below, the next level tells of the error, and costs little
 constexpr int kLevelFactor = 4;  // vertices of a level over those of the level before
+constexpr double kLevelCost = 64;
+constexpr double kForeseen = 0.9;  // share of the progress; the rest is left for one level more
 
 std::string percent(double share) {
   std::ostringstream text;
@@ -49,12 +51,12 @@ double edgeRatio(const Level& finer, const Level& coarser) {
   return std::sqrt(double(finer.vertices()) / coarser.vertices());
 }
 
-/// The order that three levels show under the loads of the coarsest, between one and two.
+/// The order that three levels show under the loads of the coarsest, between a half and two.
 double observedOrder(const Level& fine, const Level& middle, const Level& coarse) {
   const SpreadLoads loads = coarse.loads();
   const double before = LoadDifferences::mean(differenceOf(middle, coarse, loads).field),
                after = LoadDifferences::mean(differenceOf(fine, middle, loads).field);
-  return std::clamp(std::log(before / after) / std::log(edgeRatio(fine, middle)), 1.0, 2.0);
+  return std::clamp(std::log(before / after) / std::log(edgeRatio(fine, middle)), 0.5, 2.0);
 }
 
 class Search {
@@ -65,7 +67,8 @@ class Search {
         tolerance_(tolerance),
         limits_(limits),
         options_(std::move(options)),
-        progress_(progress) {
+        progress_(progress),
+        expected_(std::min(limits.levels, 2)) {
     options_.estimateError = false;  // done here
     options_.solver = LinearSolver::Direct;
     options_.tolerance =
@@ -85,6 +88,8 @@ class Search {
       if (kMargin * estimate.most() <= tolerance_)
         return {k, std::move(levels_[k].result), std::move(steps_)};
       requireReachable(k, estimate.most());
+      const double missing = std::log2(kMargin * estimate.most() / tolerance_) / order_;
+      expected_ = k + std::max(1, static_cast<int>(std::ceil(missing)));
     }
   }
 
@@ -92,8 +97,7 @@ class Search {
   /// Solves the levels up to this one that are not yet.
   void solve(int level) {
     for (int k = static_cast<int>(levels_.size()); k <= level; ++k) {
-      const Progress part = progress_.part(1 - std::pow(4.0, -k), 1 - std::pow(4.0, -k - 1));
-      const ProgressCallback callback = part.callback();
+      const ProgressCallback callback = partOf(k).callback();
       const ElasticModel model = model_(k);
       requireAllowed(model.mesh().vertexCount());
       try {
@@ -106,6 +110,13 @@ class Search {
             {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
       }
     }
+  }
+
+  /// A level's part of the progress, as far as is foreseen: levels cost 64 times the one before.
+  Progress partOf(int level) {
+    const double begin = done_, share = std::pow(kLevelCost, std::min(0, level - expected_));
+    done_ += kForeseen * share * (1 - done_);
+    return progress_.part(begin, done_);
   }
 
   void requireAllowed(int vertices) const {
@@ -125,8 +136,7 @@ class Search {
     if (!isSmall && level > 0 && levels_[level - 1].vertices() >= kLeastVertices)
       return estimateByCoarser(level);
     const Level& own = levels_[level];
-    const double done = 1 - std::pow(4.0, -level - 1);
-    return estimateError(own.model, options_, *own.result.view(), progress_.part(done, done));
+    return estimateError(own.model, options_, *own.result.view(), progress_.part(done_, done_));
   }
 
   ErrorEstimate estimateByFiner(int level) {
@@ -192,7 +202,8 @@ class Search {
   BoundaryElementOptions options_;
   Progress progress_;
   std::vector<Level> levels_;
-  double order_ = 1;
+  double order_ = 1, done_ = 0;
+  int expected_;  ///< level that may meet the tolerance
   std::vector<std::string> steps_;
 };
 

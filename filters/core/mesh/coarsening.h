@@ -21,7 +21,8 @@ struct CoarsenedSurface {
 /// collapses onto a neighbour (by OpenMesh). Graded meshes stay graded: edges grow everywhere by
 /// about the same factor, the root of the numbers of vertices. The rims of smooth patches and of
 /// the support (the triangles with three fixed corners) lose vertices along themselves alone and
-/// keep their corners; no triangle flips, turns by more than 60 degrees or becomes a sliver.
+/// keep corners that turn by more than 102 degrees; no triangle flips, turns by more than 60
+/// degrees or becomes a sliver.
 /// @param points         3 by #V.
 /// @param triangles      3 by #F, a closed manifold.
 /// @param boundaryTypes  #V, 0 free or 1 fixed.

@@ -31,7 +31,8 @@ Eigen::Matrix2Xi findParents(const OpenMeshSurface& mesh, int oldCount) {
 }
 
 /// The vertices that a fine triangle descends from are those of its coarse triangle.
-std::vector<int> findParentTriangles(const LoopLevel& level, const Eigen::Matrix3Xi& coarse) {
+std::vector<int> findParentTriangles(const SubdivisionLevel& level,
+                                     const Eigen::Matrix3Xi& coarse) {
   std::map<std::array<int, 3>, int> triangleOf;
   for (Eigen::Index f = 0; f < coarse.cols(); ++f) {
     std::array<int, 3> key{coarse(0, f), coarse(1, f), coarse(2, f)};
@@ -52,7 +53,7 @@ std::vector<int> findParentTriangles(const LoopLevel& level, const Eigen::Matrix
 
 }  // namespace
 
-LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+SubdivisionLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
   requireNoDefect(findMeshDefects(points, triangles, 1));
   OpenMeshSurface mesh = toOpenMesh(points, triangles);
   OpenMesh::Subdivider::Uniform::LoopT<OpenMeshSurface, double> loop;
@@ -63,7 +64,7 @@ LoopLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& 
   loop(1);
   loop.detach();
 
-  LoopLevel level;
+  SubdivisionLevel level;
   level.points.resize(3, mesh.n_vertices());
   for (const auto v : mesh.vertices())
     level.points.col(v.idx()) = Eigen::Map<const Eigen::Vector3d>(mesh.point(v).data());

@@ -10,14 +10,15 @@
 
 namespace palpate {
 
-LoopLevel subdivideLoop(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&) {
+SubdivisionLevel subdivideLoop(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&) {
   throw std::runtime_error(
       "refinement needs OpenMesh, which this build of Palpate was made without");
 }
 
 CoarsenedSurface coarsen(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&,
                          const std::vector<unsigned char>&, const Eigen::VectorXi&, int) {
-  throw std::runtime_error("coarsening needs OpenMesh, which this build of Palpate was made without");
+  throw std::runtime_error(
+      "coarsening needs OpenMesh, which this build of Palpate was made without");
 }
 
 }  // namespace palpate

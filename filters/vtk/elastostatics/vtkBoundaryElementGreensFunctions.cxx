@@ -70,16 +70,9 @@ vtkMTimeType vtkBoundaryElementGreensFunctions::GetMTime()
 void vtkBoundaryElementGreensFunctions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
-  namespace arrays = palpate::arrays;
   namespace convert = palpate::convert;
-  vtkNew<vtkPolyData> posed;
-  posed->ShallowCopy(input);
-  if (this->SupportPatch)
-  {
-    convert::splitPatchesAtSupport(posed, this->SmoothAngle);
-  }
-  const palpate::ElasticModel model = convert::modelOf(posed, this->SmoothAngle,
-    this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+  const auto posed = this->Posed(input);
+  const palpate::ElasticModel model = this->ModelOf(posed);
   const vtkMTimeType time = this->GetMTime();
   if (!this->Kept || this->Kept->Fingerprint != model.fingerprint() || this->Kept->Time != time)
   {
@@ -93,13 +86,37 @@ void vtkBoundaryElementGreensFunctions::Compute(
   }
   convert::removeResponses(output);
   convert::shareGreensFunctions(this->Kept->Arrays, output, model.material().youngsModulus());
-  if (convert::hasGivenPatches(posed, model.mesh()))
+  this->MarkPatches(posed, model, output);
+}
+
+vtkSmartPointer<vtkPolyData> vtkBoundaryElementGreensFunctions::Posed(vtkPolyData* surface) const
+{
+  auto posed = vtkSmartPointer<vtkPolyData>::New();
+  posed->ShallowCopy(surface);
+  if (this->SupportPatch)
+  {
+    palpate::convert::splitPatchesAtSupport(posed, this->SmoothAngle);
+  }
+  return posed;
+}
+
+palpate::ElasticModel vtkBoundaryElementGreensFunctions::ModelOf(vtkPolyData* posed) const
+{
+  return palpate::convert::modelOf(posed, this->SmoothAngle,
+    this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+}
+
+void vtkBoundaryElementGreensFunctions::MarkPatches(
+  vtkPolyData* posed, const palpate::ElasticModel& model, vtkPolyData* output) const
+{
+  namespace arrays = palpate::arrays;
+  if (palpate::convert::hasGivenPatches(posed, model.mesh()))
   {
     output->GetFieldData()->RemoveArray(arrays::SmoothAngle);
   }
   else
   {
-    convert::setFieldNumber(output, arrays::SmoothAngle, this->SmoothAngle);
+    palpate::convert::setFieldNumber(output, arrays::SmoothAngle, this->SmoothAngle);
   }
 }
 

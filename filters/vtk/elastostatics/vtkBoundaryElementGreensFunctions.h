@@ -28,6 +28,7 @@ class vtkIdTypeArray;
 namespace palpate
 {
 struct BoundaryElementOptions;
+class ElasticModel;
 }
 
 class PALPATEELASTOSTATICS_EXPORT vtkBoundaryElementGreensFunctions : public vtkElastostaticAlgorithm
@@ -193,6 +194,14 @@ protected:
    * The settings for the core, for a surface of so many vertices.
    */
   palpate::BoundaryElementOptions OptionsFor(vtkIdType vertexCount) const;
+
+  /**
+   * The surface with the smooth patches that SupportPatch asks for, the model on it, and a mark on the
+   * output of whether its smooth patches were given or found.
+   */
+  vtkSmartPointer<vtkPolyData> Posed(vtkPolyData* surface) const;
+  palpate::ElasticModel ModelOf(vtkPolyData* posed) const;
+  void MarkPatches(vtkPolyData* posed, const palpate::ElasticModel& model, vtkPolyData* output) const;
 
 private:
   struct Computed;

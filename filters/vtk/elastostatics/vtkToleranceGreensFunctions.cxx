@@ -6,17 +6,18 @@
 #include "array_names.h"
 #include "bem/tolerance_search.h"
 #include "conversion.h"
+#include "mesh/shells.h"
 #include "model_arrays.h"
-#include "smooth_patch_arrays.h"
-#include "vtkLoopRefinement.h"
+#include "vtkSurfaceRefinement.h"
 
-#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,47 +26,31 @@ vtkStandardNewMacro(vtkToleranceGreensFunctions);
 
 namespace
 {
-/// A surface and what Loop's scheme makes of it, level by level.
-class Hierarchy
+/// A surface of the hierarchy, as its model takes it, and the model.
+struct Level
 {
-public:
-  explicit Hierarchy(vtkPolyData* surface)
-  {
-    this->Levels.push_back(vtkSmartPointer<vtkPolyData>::New());
-    this->Levels.front()->ShallowCopy(surface);
-  }
-
-  vtkPolyData* Level(int level)
-  {
-    while (static_cast<int>(this->Levels.size()) <= level)
-    {
-      vtkNew<vtkLoopRefinement> refinement;
-      refinement->SetInputData(this->Levels.back());
-      refinement->Update();
-      if (refinement->GetFailureMessage()[0])
-      {
-        throw std::runtime_error(refinement->GetFailureMessage());
-      }
-      this->Levels.push_back(refinement->GetOutput());
-    }
-    return this->Levels[level];
-  }
-
-private:
-  std::vector<vtkSmartPointer<vtkPolyData>> Levels;
+  vtkSmartPointer<vtkPolyData> Posed;
+  palpate::ElasticModel Model;
 };
 
 double volumeOf(const palpate::SurfaceMesh& mesh)
 {
-  double volume = 0;
-  for (int f = 0; f < mesh.triangleCount(); ++f)
-  {
-    const Eigen::Vector3d corner = mesh.points().col(mesh.triangles()(0, f));
-    volume += mesh.triangleAreas()[f] * mesh.triangleNormals().col(f).dot(corner) / 3;
-  }
-  return volume;
+  const std::vector<double> volumes = palpate::findShells(mesh.points(), mesh.triangles()).volume;
+  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
 }
 } // namespace
+
+/// What was chosen, and for what but for Young's modulus, which only scales Green's functions.
+struct vtkToleranceGreensFunctions::Chosen
+{
+  std::uint64_t Fingerprint; // of the surface as given
+  vtkMTimeType Time;         // of the filter's settings
+  int Level;
+  std::vector<std::string> Steps;
+  vtkNew<vtkPolyData> Arrays;
+};
+
+vtkToleranceGreensFunctions::~vtkToleranceGreensFunctions() = default;
 
 vtkToleranceGreensFunctions::vtkToleranceGreensFunctions()
 {
@@ -77,7 +62,8 @@ void vtkToleranceGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n"
      << indent << "MaximumNumberOfLevels: " << this->MaximumNumberOfLevels << "\n"
-     << indent << "MaximumNumberOfVertices: " << this->MaximumNumberOfVertices << "\n";
+     << indent << "MaximumNumberOfVertices: " << this->MaximumNumberOfVertices << "\n"
+     << indent << "Subdivision: " << this->Subdivision << "\n";
 }
 
 void vtkToleranceGreensFunctions::Compute(
@@ -89,50 +75,78 @@ void vtkToleranceGreensFunctions::Compute(
     throw std::invalid_argument("columns cannot be chosen together with a tolerance: the levels that "
                                 "it chooses from have other vertices");
   }
-  Hierarchy hierarchy(input);
-  const auto posed = [&](int level)
+  auto raw = vtkSmartPointer<vtkPolyData>::New();
+  raw->ShallowCopy(input);
+  std::vector<Level> levels;
+  const auto at = [&](int level) -> const Level&
   {
-    auto surface = vtkSmartPointer<vtkPolyData>::New();
-    surface->ShallowCopy(hierarchy.Level(level));
-    if (this->GetSupportPatch())
+    while (static_cast<int>(levels.size()) <= level)
     {
-      convert::splitPatchesAtSupport(surface, this->GetSmoothAngle());
+      if (!levels.empty())
+      {
+        raw = this->Refined(raw);
+      }
+      const auto posed = this->Posed(raw);
+      levels.push_back({ posed, this->ModelOf(posed) });
     }
-    return surface;
+    return levels[level];
   };
-  const auto modelOf = [&](vtkPolyData* surface)
+  const std::uint64_t fingerprint = at(0).Model.fingerprint();
+  const vtkMTimeType time = this->GetMTime();
+  if (!this->Kept || this->Kept->Fingerprint != fingerprint || this->Kept->Time != time)
   {
-    return convert::modelOf(surface, this->GetSmoothAngle(),
-      this->GetDomain() == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
-  };
+    this->Kept.reset();
+    std::unique_ptr<Chosen> chosen(new Chosen{ fingerprint, time, 0, {}, {} });
+    palpate::ToleranceResult result = this->Search([&](int level) { return at(level).Model; });
+    chosen->Level = result.level;
+    chosen->Steps = std::move(result.steps);
+    this->WarnOfVolume(at(0).Model, at(result.level).Model, result.greens.info.diagnostics.warnings);
+    convert::setGreensFunctions(chosen->Arrays, at(result.level).Model, std::move(result.greens));
+    this->Kept = std::move(chosen);
+  }
+  const Level& level = at(this->Kept->Level);
+  output->ShallowCopy(level.Posed);
+  convert::removeMeshResults(output);
+  convert::shareGreensFunctions(
+    this->Kept->Arrays, output, level.Model.material().youngsModulus());
+  this->MarkPatches(level.Posed, level.Model, output);
+  convert::setFieldStrings(output, palpate::arrays::ToleranceSteps, this->Kept->Steps);
+}
+
+palpate::ToleranceResult vtkToleranceGreensFunctions::Search(
+  const std::function<palpate::ElasticModel(int)>& level)
+{
   palpate::ToleranceLimits limits;
   limits.levels = this->MaximumNumberOfLevels;
   limits.vertices = this->MaximumNumberOfVertices;
-  palpate::ToleranceResult result = palpate::computeToTolerance(
-    [&](int level) { return modelOf(posed(level)); }, this->ErrorTolerance, limits,
-    this->OptionsFor(input->GetNumberOfPoints()), [this](double fraction, const char* stage)
-    { return this->ReportProgress(fraction, stage); });
+  return palpate::computeToTolerance(level, this->ErrorTolerance, limits, this->OptionsFor(0),
+    [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
+}
 
-  const auto surface = posed(result.level);
-  const palpate::ElasticModel model = modelOf(surface);
-  const double change = volumeOf(model.mesh()) / volumeOf(modelOf(posed(0)).mesh()) - 1;
-  if (std::abs(change) > this->ErrorTolerance)
+void vtkToleranceGreensFunctions::WarnOfVolume(const palpate::ElasticModel& given,
+  const palpate::ElasticModel& refined, std::vector<std::string>& warnings) const
+{
+  const double change = volumeOf(refined.mesh()) / volumeOf(given.mesh()) - 1;
+  if (std::abs(change) <= this->ErrorTolerance)
   {
-    result.greens.info.diagnostics.warnings.push_back(
-      "Loop's refinement has changed the volume by " + std::to_string(std::lround(100 * change)) +
-      " %, as the surface was taken to control a smooth one: where it is meant as it stands, give it "
-      "finer, or forbid levels");
+    return;
   }
-  output->ShallowCopy(surface);
-  convert::removeMeshResults(output);
-  convert::setGreensFunctions(output, model, std::move(result.greens));
-  if (convert::hasGivenPatches(surface, model.mesh()))
+  warnings.push_back("refinement has changed the volume by " +
+    std::to_string(std::lround(100 * change)) + " %: where the surface is meant as it stands, choose the " +
+    (this->Subdivision == vtkSurfaceRefinement::LOOP ? "curved or the flat" : "flat") +
+    " subdivision, or give the surface finer");
+}
+
+vtkSmartPointer<vtkPolyData> vtkToleranceGreensFunctions::Refined(vtkPolyData* surface)
+{
+  vtkNew<vtkSurfaceRefinement> refinement;
+  refinement->SetInputData(surface);
+  refinement->SetSubdivision(this->Subdivision);
+  refinement->SetSmoothAngle(this->GetSmoothAngle());
+  refinement->Update();
+  if (refinement->GetFailureMessage()[0])
   {
-    output->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
+    throw std::runtime_error(refinement->GetFailureMessage());
   }
-  else
-  {
-    convert::setFieldNumber(output, palpate::arrays::SmoothAngle, this->GetSmoothAngle());
-  }
-  convert::setFieldStrings(output, palpate::arrays::ToleranceSteps, result.steps);
+  return refinement->GetOutput();
 }

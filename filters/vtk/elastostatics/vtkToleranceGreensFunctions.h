@@ -6,13 +6,17 @@
  * @brief Green's functions that are as accurate as asked for, at the least cost
  *
  * Takes what vtkBoundaryElementGreensFunctions takes and chooses the rest: whether the surface is
- * refined, and how often (vtkLoopRefinement); the tolerance of the integrals; single or double precision.
+ * refined, and how often (vtkSurfaceRefinement, by Subdivision); the tolerance of the integrals; single
+ * or double precision.
  * Levels are computed from the coarsest on, until the estimated error of displacements and contact
  * compliances, as 95 % of the loads do not exceed it, is at most ErrorTolerance
  * (palpate::computeToTolerance). The support gets smooth patches of its own (SupportPatch is on).
  * The output is the surface of the level that was chosen with its Green's functions, and its field
  * array `ToleranceSteps` says what was tried. A tolerance that is out of reach is refused with the error
  * that can be reached.
+ *
+ * Where only Young's modulus has changed since the last execution, the same Green's functions are
+ * handed on.
  *
  * Tolerance and Precision are chosen here; ColumnNodes are refused, as levels have other vertices.
  */
@@ -21,6 +25,17 @@
 #define vtkToleranceGreensFunctions_h
 
 #include "vtkBoundaryElementGreensFunctions.h"
+#include "vtkSurfaceRefinement.h" // for the kinds of subdivision
+
+#include <functional> // for the levels
+#include <memory>     // for what was chosen
+#include <string>     // for warnings
+#include <vector>     // for warnings
+
+namespace palpate
+{
+struct ToleranceResult;
+}
 
 class PALPATEELASTOSTATICS_EXPORT vtkToleranceGreensFunctions
   : public vtkBoundaryElementGreensFunctions
@@ -48,6 +63,14 @@ public:
 
   ///@{
   /**
+   * What the surface stands for when it is refined. Default vtkSurfaceRefinement::FLAT: itself.
+   */
+  vtkSetClampMacro(Subdivision, int, vtkSurfaceRefinement::LOOP, vtkSurfaceRefinement::CURVED);
+  vtkGetMacro(Subdivision, int);
+  ///@}
+
+  ///@{
+  /**
    * How many vertices the surface may have, refined or not. Default 3000, about a minute on two cores.
    */
   vtkSetClampMacro(MaximumNumberOfVertices, int, 4, 100000);
@@ -56,16 +79,25 @@ public:
 
 protected:
   vtkToleranceGreensFunctions();
-  ~vtkToleranceGreensFunctions() override = default;
+  ~vtkToleranceGreensFunctions() override;
   void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
 
 private:
   vtkToleranceGreensFunctions(const vtkToleranceGreensFunctions&) = delete;
   void operator=(const vtkToleranceGreensFunctions&) = delete;
 
+  struct Chosen;
+
+  vtkSmartPointer<vtkPolyData> Refined(vtkPolyData* surface);
+  palpate::ToleranceResult Search(const std::function<palpate::ElasticModel(int)>& level);
+  void WarnOfVolume(const palpate::ElasticModel& given, const palpate::ElasticModel& refined,
+    std::vector<std::string>& warnings) const;
+
   double ErrorTolerance = 0.1;
   int MaximumNumberOfLevels = 4;
   int MaximumNumberOfVertices = 3000;
+  int Subdivision = vtkSurfaceRefinement::FLAT;
+  std::unique_ptr<Chosen> Kept;
 };
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "mesh/curved_refinement.h"
+#include "mesh/edge_subdivision.h"
 
 #include <algorithm>
 #include <Eigen/Geometry>
@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "mesh/surface_mesh.h"
 
 namespace palpate {
 namespace {
@@ -30,15 +32,13 @@ Eigen::Vector3d patchNormal(const SurfaceMesh& mesh, const Eigen::VectorXi& patc
   return sum.normalized();
 }
 
-/// The middle of the cubic edge; a straight one without a patch.
-Eigen::Vector3d edgeMiddle(const SurfaceMesh& mesh, const Eigen::VectorXi& patches, int a, int b,
-                           std::optional<int> patch) {
-  const Eigen::Vector3d pa = mesh.points().col(a), pb = mesh.points().col(b);
-  Eigen::Vector3d middle = (pa + pb) / 2;
-  if (!patch) return middle;
-  const Eigen::Vector3d na = patchNormal(mesh, patches, a, *patch),
-                        nb = patchNormal(mesh, patches, b, *patch);
-  return middle - ((pb - pa).dot(na) * na + (pa - pb).dot(nb) * nb) / 8;
+/// What the middle of the cubic edge is off that of the straight one.
+Eigen::Vector3d offset(const SurfaceMesh& mesh, const Eigen::VectorXi& patches, int a, int b,
+                       int patch) {
+  const Eigen::Vector3d edge = mesh.points().col(b) - mesh.points().col(a),
+                        na = patchNormal(mesh, patches, a, patch),
+                        nb = patchNormal(mesh, patches, b, patch);
+  return (edge.dot(nb) * nb - edge.dot(na) * na) / 8;
 }
 
 struct Edge {
@@ -68,28 +68,20 @@ Edges findEdges(const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
   return edges;
 }
 
-}  // namespace
-
-RemeshedSurface refineCurved(const SurfaceMesh& mesh,
-                             const std::vector<unsigned char>& boundaryTypes,
-                             const Eigen::VectorXi& smoothPatches) {
-  if (static_cast<int>(boundaryTypes.size()) != mesh.vertexCount() ||
-      smoothPatches.size() != mesh.triangleCount())
-    throw std::invalid_argument(
-        "refinement takes a boundary type for each vertex and a smooth patch for each triangle");
-  const Edges edges = findEdges(mesh, smoothPatches);
-  RemeshedSurface fine;
-  fine.points.resize(3, mesh.vertexCount() + edges.size());
-  fine.points.leftCols(mesh.vertexCount()) = mesh.points();
-  fine.boundaryTypes = boundaryTypes;
-  fine.boundaryTypes.resize(fine.points.cols());
+/// The triangles cut in four, with the middles of the edges at the middles of their ends.
+SubdivisionLevel splitTriangles(const SurfaceMesh& mesh, const Edges& edges) {
+  const int old = mesh.vertexCount();
+  SubdivisionLevel fine;
+  fine.points.resize(3, old + edges.size());
+  fine.points.leftCols(old) = mesh.points();
+  fine.parents.resize(2, fine.points.cols());
+  for (int v = 0; v < old; ++v) fine.parents.col(v).setConstant(v);
   for (const auto& [ends, edge] : edges) {
+    fine.parents.col(edge.vertex) << ends.first, ends.second;
     fine.points.col(edge.vertex) =
-        edgeMiddle(mesh, smoothPatches, ends.first, ends.second, edge.patch);
-    fine.boundaryTypes[edge.vertex] = boundaryTypes[ends.first] && boundaryTypes[ends.second];
+        (mesh.points().col(ends.first) + mesh.points().col(ends.second)) / 2;
   }
   fine.triangles.resize(3, 4 * mesh.triangleCount());
-  fine.smoothPatches.resize(4 * mesh.triangleCount());
   for (int f = 0; f < mesh.triangleCount(); ++f) {
     const Eigen::Vector3i corner = mesh.triangles().col(f);
     Eigen::Vector3i middle;  // of the edge after each corner
@@ -97,8 +89,26 @@ RemeshedSurface refineCurved(const SurfaceMesh& mesh,
     for (int k = 0; k < 3; ++k)
       fine.triangles.col(4 * f + k) << corner[k], middle[k], middle[(k + 2) % 3];
     fine.triangles.col(4 * f + 3) = middle;
-    fine.smoothPatches.segment<4>(4 * f).setConstant(smoothPatches[f]);
+    fine.parentTriangle.insert(fine.parentTriangle.end(), 4, f);
   }
+  return fine;
+}
+
+}  // namespace
+
+SubdivisionLevel subdivideFlat(const SurfaceMesh& mesh) {
+  return splitTriangles(mesh, findEdges(mesh, Eigen::VectorXi::Zero(mesh.triangleCount())));
+}
+
+SubdivisionLevel subdivideCurved(const SurfaceMesh& mesh, const Eigen::VectorXi& smoothPatches) {
+  if (smoothPatches.size() != mesh.triangleCount())
+    throw std::invalid_argument("refinement takes a smooth patch for each triangle");
+  const Edges edges = findEdges(mesh, smoothPatches);
+  SubdivisionLevel fine = splitTriangles(mesh, edges);
+  for (const auto& [ends, edge] : edges)
+    if (edge.patch)
+      fine.points.col(edge.vertex) +=
+          offset(mesh, smoothPatches, ends.first, ends.second, *edge.patch);
   return fine;
 }
 

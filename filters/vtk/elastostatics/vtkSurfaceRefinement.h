@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class vtkSurfaceRefinement
+ * @brief subdivides a closed surface and carries its data along
+ *
+ * Each level splits every triangle in four. Old vertices keep their numbers. A new vertex is fixed if
+ * both ends of its edge are; other point data are the mean of the ends'. Triangles inherit cell data.
+ * Green's functions, vertex areas, stiffnesses and results of contacts are dropped, as they belong to
+ * the coarse mesh, and so are smooth patches that were found, not given, unless Subdivision is curved.
+ */
+
+#ifndef vtkSurfaceRefinement_h
+#define vtkSurfaceRefinement_h
+
+#include "vtkElastostaticAlgorithm.h"
+
+class PALPATEELASTOSTATICS_EXPORT vtkSurfaceRefinement : public vtkElastostaticAlgorithm
+{
+public:
+  static vtkSurfaceRefinement* New();
+  vtkTypeMacro(vtkSurfaceRefinement, vtkElastostaticAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How often every triangle is split in four, 0 to 8. Default 1.
+   */
+  vtkSetClampMacro(NumberOfLevels, int, 0, 8);
+  vtkGetMacro(NumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * What the surface stands for: the control mesh of a smooth one, towards which its vertices move (C.
+   * Loop 1987; James & Pai 2001, section 3.2; OpenMesh); itself, flat triangles and all; or a surface
+   * through its vertices, smooth but for its sharp edges, which stay (A. Vlachos et al. 2001). Default
+   * Loop.
+   */
+  enum SubdivisionType
+  {
+    LOOP = 0,
+    FLAT = 1,
+    CURVED = 2
+  };
+  vtkSetClampMacro(Subdivision, int, LOOP, CURVED);
+  vtkGetMacro(Subdivision, int);
+  void SetSubdivisionToLoop() { this->SetSubdivision(LOOP); }
+  void SetSubdivisionToFlat() { this->SetSubdivision(FLAT); }
+  void SetSubdivisionToCurved() { this->SetSubdivision(CURVED); }
+  ///@}
+
+  ///@{
+  /**
+   * Edges whose triangles' normals differ by more than this angle (degrees, default 30) are sharp for
+   * the curved subdivision, unless the input has a cell array `SmoothPatch`.
+   */
+  vtkSetMacro(SmoothAngle, double);
+  vtkGetMacro(SmoothAngle, double);
+  ///@}
+
+protected:
+  vtkSurfaceRefinement() = default;
+  ~vtkSurfaceRefinement() override = default;
+  void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
+
+private:
+  vtkSurfaceRefinement(const vtkSurfaceRefinement&) = delete;
+  void operator=(const vtkSurfaceRefinement&) = delete;
+
+  int NumberOfLevels = 1;
+  int Subdivision = LOOP;
+  double SmoothAngle = 30;
+};
+
+#endif
