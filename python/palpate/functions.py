@@ -40,6 +40,8 @@ from .PalpateElastostatics import (
     vtkToleranceGreensFunctions,
 )
 
+FIXED = "PrecomputeFixed"  # carries an argument to a filter
+
 __all__ = ["precompute", "press", "refine", "remesh", "repair", "solve", "stiffness",
            "stiffness_artifacts"]
 
@@ -149,8 +151,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         if fixed.shape != (surface.GetNumberOfPoints(),):
             raise Error(f"fixed must hold {surface.GetNumberOfPoints()} values, one a vertex, not "
                         f"{'x'.join(map(str, fixed.shape))}")
-        conditioned.GetPointData().AddArray(
-            as_vtk(fixed.astype(bool), "BoundaryType", 1, np.uint8))
+        conditioned.GetPointData().AddArray(as_vtk(fixed.astype(bool), FIXED, 1, np.uint8))
+        conditions.SetFixedArrayName(FIXED)
     conditions.SetInputData(conditioned)
     if young is not None:
         conditions.SetYoungsModulus(number(young, "Young's modulus"))
@@ -182,7 +184,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
             bem.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
     if support_patch is not None:
         bem.SetSupportPatch(flag(support_patch, "support_patch"))
-    bem.SetInputData(run(conditions))
+    posed = run(conditions)
+    posed.GetPointData().RemoveArray(FIXED)
+    bem.SetInputData(posed)
     bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
     bem.SetDomain(choice(domain, DOMAINS, "domain"))
     bem.SetReciprocal(flag(reciprocal, "reciprocal"))

@@ -56,8 +56,25 @@ class Estimates(unittest.TestCase):
         patches, fixed = palpate.array(own, "SmoothPatch"), palpate.array(own, "BoundaryType")
         self.assertEqual(len(set(patches)), 2)
         self.assertEqual(own.GetNumberOfPoints(), len(fixed))
-        refined = palpate.refine(own, 1)  # inherits them
+        refined = palpate.refine(own, 1)  # inherits them, as the kidney's were given
         self.assertEqual(len(set(palpate.array(refined, "SmoothPatch"))), 2)
+
+    def test_patches_that_were_found_and_split_are_found_anew_on_finer_meshes(self):
+        surface = sphere(2)
+        own = palpate.precompute(surface, 1, 0.3, fixed=lower_cap(surface), support_patch=True)
+        self.assertEqual(len(set(palpate.array(own, "SmoothPatch"))), 2)
+        self.assertFalse(palpate.refine(own, 1).GetCellData().HasArray("SmoothPatch"))
+
+    def test_patches_of_a_support_go_with_it(self):
+        surface = cube(2)
+        fixed, half = points_of(surface)[:, 2] == 0, points_of(surface)[:, 0] <= 0.5
+        model = palpate.precompute(surface, 1, 0.3, fixed=fixed, support_patch=True)
+        self.assertEqual(len(set(palpate.array(model, "SmoothPatch"))), 6)
+        again, fresh = (palpate.precompute(start, 1, 0.3, fixed=half, support_patch=True)
+                        for start in (model, surface))
+        self.assertGreater(len(set(palpate.array(fresh, "SmoothPatch"))), 6)
+        self.assertTrue((palpate.array(again, "SmoothPatch") == palpate.array(fresh, "SmoothPatch")).all())
+        self.assertTrue((palpate.greens_functions(again) == palpate.greens_functions(fresh)).all())
 
     def test_go_when_the_surface_is_refined(self):
         self.assertFalse(palpate.refine(sphere_model(1)).GetFieldData().HasArray("ErrorEstimate"))

@@ -51,7 +51,13 @@ bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh)
     return stored.size() > 0;
   }
   const double angle = fieldNumber(surface, arrays::SmoothAngle, "compute the patches again");
-  return !(angle >= 0 && angle <= 180) || stored != findSmoothPatches(mesh, angle);
+  if (!(angle >= 0 && angle <= 180))
+  {
+    return true;
+  }
+  const Eigen::VectorXi found = findSmoothPatches(mesh, angle);
+  return stored != found &&
+    stored != splitAtSupport(mesh, BoundaryConditions(boundaryTypesOf(surface, true)), found);
 }
 
 void setSmoothPatches(vtkPolyData* surface, const Eigen::VectorXi& patches)
@@ -65,13 +71,12 @@ void setSmoothPatches(vtkPolyData* surface, const Eigen::VectorXi& patches)
   surface->GetCellData()->AddArray(array);
 }
 
-void splitPatchesAtSupport(vtkPolyData* surface, double smoothAngle)
+void removeFoundPatches(vtkPolyData* surface, const SurfaceMesh& mesh)
 {
-  const SurfaceMesh mesh(pointsOf(surface), trianglesOf(surface));
-  const Eigen::VectorXi patches = splitAtSupport(mesh,
-    BoundaryConditions(boundaryTypesOf(surface, true)),
-    hasGivenPatches(surface, mesh) ? storedPatches(surface) : findSmoothPatches(mesh, smoothAngle));
-  setSmoothPatches(surface, patches);
+  if (hasField(surface, arrays::SmoothAngle) && !hasGivenPatches(surface, mesh))
+  {
+    surface->GetCellData()->RemoveArray(arrays::SmoothPatch);
+  }
   surface->GetFieldData()->RemoveArray(arrays::SmoothAngle);
 }
 } // namespace palpate::convert

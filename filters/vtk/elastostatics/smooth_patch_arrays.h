@@ -23,13 +23,14 @@ Eigen::VectorXi storedPatches(vtkPolyData* surface);
 void setSmoothPatches(vtkPolyData* surface, const Eigen::VectorXi& patches);
 
 /// Whether the surface's SmoothPatch array was given, and not found by an earlier computation: what that
-/// computation's SmoothAngle finds on the surface is not what the array holds.
+/// computation's SmoothAngle finds on the surface, split at its support or not, is not what the array
+/// holds.
 /// @param mesh  of the surface.
 bool hasGivenPatches(vtkPolyData* surface, const SurfaceMesh& mesh);
 
-/// Gives a surface smooth patches that end at the rim of its support (splitAtSupport).
-/// @param surface  with boundary types; a shallow copy, as its cell and field data change.
-void splitPatchesAtSupport(vtkPolyData* surface, double smoothAngle);
+/// Removes patches that are to be found anew, as what they were found on changes; given ones stay.
+/// @param mesh  of the surface.
+void removeFoundPatches(vtkPolyData* surface, const SurfaceMesh& mesh);
 } // namespace palpate::convert
 
 #endif

@@ -71,8 +71,7 @@ void vtkBoundaryElementGreensFunctions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
   namespace convert = palpate::convert;
-  const auto posed = this->Posed(input);
-  const palpate::ElasticModel model = this->ModelOf(posed);
+  const palpate::ElasticModel model = this->ModelOf(input);
   const vtkMTimeType time = this->GetMTime();
   if (!this->Kept || this->Kept->Fingerprint != model.fingerprint() || this->Kept->Time != time)
   {
@@ -86,31 +85,21 @@ void vtkBoundaryElementGreensFunctions::Compute(
   }
   convert::removeResponses(output);
   convert::shareGreensFunctions(this->Kept->Arrays, output, model.material().youngsModulus());
-  this->MarkPatches(posed, model, output);
+  this->MarkPatches(input, model, output);
 }
 
-vtkSmartPointer<vtkPolyData> vtkBoundaryElementGreensFunctions::Posed(vtkPolyData* surface) const
+palpate::ElasticModel vtkBoundaryElementGreensFunctions::ModelOf(vtkPolyData* surface) const
 {
-  auto posed = vtkSmartPointer<vtkPolyData>::New();
-  posed->ShallowCopy(surface);
-  if (this->SupportPatch)
-  {
-    palpate::convert::splitPatchesAtSupport(posed, this->SmoothAngle);
-  }
-  return posed;
-}
-
-palpate::ElasticModel vtkBoundaryElementGreensFunctions::ModelOf(vtkPolyData* posed) const
-{
-  return palpate::convert::modelOf(posed, this->SmoothAngle,
+  const palpate::ElasticModel model = palpate::convert::modelOf(surface, this->SmoothAngle,
     this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+  return this->SupportPatch ? palpate::withSupportPatch(model) : model;
 }
 
 void vtkBoundaryElementGreensFunctions::MarkPatches(
-  vtkPolyData* posed, const palpate::ElasticModel& model, vtkPolyData* output) const
+  vtkPolyData* surface, const palpate::ElasticModel& model, vtkPolyData* output) const
 {
   namespace arrays = palpate::arrays;
-  if (palpate::convert::hasGivenPatches(posed, model.mesh()))
+  if (palpate::convert::hasGivenPatches(surface, model.mesh()))
   {
     output->GetFieldData()->RemoveArray(arrays::SmoothAngle);
   }

@@ -130,7 +130,7 @@ public:
   /**
    * Give the support smooth patches of its own, so that its traction ends at its rim and not half an edge
    * beyond: contacts near it, and what the body does as a whole, become several times more accurate.
-   * Default off. The output then has a cell array `SmoothPatch` that counts as given.
+   * Default off, the paper's one traction a vertex.
    */
   vtkSetMacro(SupportPatch, bool);
   vtkGetMacro(SupportPatch, bool);
@@ -196,12 +196,12 @@ protected:
   palpate::BoundaryElementOptions OptionsFor(vtkIdType vertexCount) const;
 
   /**
-   * The surface with the smooth patches that SupportPatch asks for, the model on it, and a mark on the
-   * output of whether its smooth patches were given or found.
+   * The model of a surface, and a mark on the output of whether the surface's smooth patches were given
+   * or found.
    */
-  vtkSmartPointer<vtkPolyData> Posed(vtkPolyData* surface) const;
-  palpate::ElasticModel ModelOf(vtkPolyData* posed) const;
-  void MarkPatches(vtkPolyData* posed, const palpate::ElasticModel& model, vtkPolyData* output) const;
+  palpate::ElasticModel ModelOf(vtkPolyData* surface) const;
+  void MarkPatches(
+    vtkPolyData* surface, const palpate::ElasticModel& model, vtkPolyData* output) const;
 
 private:
   struct Computed;

@@ -5,6 +5,8 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "mesh/surface_mesh.h"
+#include "smooth_patch_arrays.h"
 #include "model/material.h"
 
 #include "vtkCellData.h"
@@ -250,6 +252,22 @@ std::vector<unsigned char> vtkReferenceBoundaryConditions::FindFixedPoints(
   return fixed;
 }
 
+namespace
+{
+/// Smooth patches that were found for another support go with it.
+void changeBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>& types)
+{
+  namespace convert = palpate::convert;
+  if (convert::hasField(surface, palpate::arrays::SmoothAngle) &&
+    convert::boundaryTypesOf(surface, true) != types)
+  {
+    convert::removeFoundPatches(
+      surface, palpate::SurfaceMesh(convert::pointsOf(surface), convert::trianglesOf(surface)));
+  }
+  convert::setBoundaryTypes(surface, types);
+}
+} // namespace
+
 void vtkReferenceBoundaryConditions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
@@ -260,7 +278,7 @@ void vtkReferenceBoundaryConditions::Compute(
     !this->HalfSpaces.empty() || !this->Boxes.empty() || !this->Spheres.empty();
   if (hasRegions || selection || this->FixedFunction || !this->FixedArrayName.empty())
   {
-    palpate::convert::setBoundaryTypes(output, this->FindFixedPoints(input, selection));
+    changeBoundaryTypes(output, this->FindFixedPoints(input, selection));
   }
   const double young = setOrKeep(output, palpate::arrays::YoungsModulus, this->YoungsModulus);
   const double poisson = setOrKeep(output, palpate::arrays::PoissonRatio, this->PoissonRatio);

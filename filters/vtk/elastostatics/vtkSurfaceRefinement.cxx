@@ -33,17 +33,6 @@ namespace
 {
 namespace convert = palpate::convert;
 
-/// Patches that were found on the coarse surface are to be found anew; given ones are inherited.
-void removeFoundPatches(vtkPolyData* surface, const palpate::SurfaceMesh& mesh)
-{
-  if (convert::hasField(surface, palpate::arrays::SmoothAngle) &&
-    !convert::hasGivenPatches(surface, mesh))
-  {
-    surface->GetCellData()->RemoveArray(palpate::arrays::SmoothPatch);
-  }
-  surface->GetFieldData()->RemoveArray(palpate::arrays::SmoothAngle);
-}
-
 void interpolatePointData(vtkPolyData* coarse, const palpate::SubdivisionLevel& level, vtkPolyData* fine)
 {
   vtkPointData* points = fine->GetPointData();
@@ -90,7 +79,7 @@ void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
     const palpate::SurfaceMesh mesh(convert::pointsOf(coarse), convert::trianglesOf(coarse));
     if (step == 0)
     {
-      removeFoundPatches(coarse, mesh);
+      convert::removeFoundPatches(coarse, mesh);
     }
     Eigen::VectorXi patches = convert::storedPatches(coarse);
     if (this->Subdivision == CURVED && patches.size() == 0)

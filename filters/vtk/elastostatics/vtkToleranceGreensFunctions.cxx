@@ -26,10 +26,10 @@ vtkStandardNewMacro(vtkToleranceGreensFunctions);
 
 namespace
 {
-/// A surface of the hierarchy, as its model takes it, and the model.
+/// A surface of the hierarchy and its model.
 struct Level
 {
-  vtkSmartPointer<vtkPolyData> Posed;
+  vtkSmartPointer<vtkPolyData> Surface;
   palpate::ElasticModel Model;
 };
 
@@ -86,8 +86,7 @@ void vtkToleranceGreensFunctions::Compute(
       {
         raw = this->Refined(raw);
       }
-      const auto posed = this->Posed(raw);
-      levels.push_back({ posed, this->ModelOf(posed) });
+      levels.push_back({ raw, this->ModelOf(raw) });
     }
     return levels[level];
   };
@@ -105,11 +104,11 @@ void vtkToleranceGreensFunctions::Compute(
     this->Kept = std::move(chosen);
   }
   const Level& level = at(this->Kept->Level);
-  output->ShallowCopy(level.Posed);
+  output->ShallowCopy(level.Surface);
   convert::removeMeshResults(output);
   convert::shareGreensFunctions(
     this->Kept->Arrays, output, level.Model.material().youngsModulus());
-  this->MarkPatches(level.Posed, level.Model, output);
+  this->MarkPatches(level.Surface, level.Model, output);
   convert::setFieldStrings(output, palpate::arrays::ToleranceSteps, this->Kept->Steps);
 }
 
