@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <ostream>
 
@@ -139,36 +140,45 @@ void printStudy(const AccuracyStudy& study) {
   }
 }
 
-/// Files by their names, all made before the first is written.
-using Files = std::vector<std::pair<std::string, std::string>>;
+/// A file by its path, and what makes its text.
+using File = std::pair<std::string, std::function<std::string(const AccuracyStudy&)>>;
 
-std::string besideReport(const Options& o, const char* ending) {
-  return std::filesystem::path(o.report).replace_extension(ending).string();
+std::vector<File> filesOf(const Options& o) {
+  const auto svg = [](const AccuracyStudy& study) { return accuracySvg(study, true); };
+  std::vector<File> files;
+  if (!o.csv.empty()) files.emplace_back(o.csv, accuracyCsv);
+  if (!o.svg.empty()) files.emplace_back(o.svg, svg);
+  if (o.report.empty()) return files;
+  const std::filesystem::path report = o.report;
+  files.emplace_back(std::filesystem::path(report).replace_extension(".csv").string(), accuracyCsv);
+  files.emplace_back(std::filesystem::path(report).replace_extension(".svg").string(), svg);
+  files.emplace_back(o.report, accuracyPage);
+  return files;
 }
 
-/// Before hours of work: nothing that is read may be overwritten.
-void requireOtherFiles(const Options& o) {
-  std::vector<std::string> written{o.csv, o.svg, o.image, o.report};
-  if (!o.report.empty())
-    for (const char* ending : {".csv", ".svg"}) written.push_back(besideReport(o, ending));
-  for (const std::string& path : written)
+/// Before hours of work: files can be written, and none that is read is overwritten.
+void requireSensibleFiles(const Options& o) {
+  std::vector<std::string> written;
+  if (!o.image.empty()) written.push_back(o.image);
+  for (const File& file : filesOf(o)) written.push_back(file.first);
+  for (const std::string& path : written) {
+    const std::string reason = whyUnwritable(path);
+    if (!reason.empty()) throw std::invalid_argument(reason);
     for (const std::string& read : {o.study.input, o.study.reference}) {
       std::error_code ignored;
-      if (!path.empty() && std::filesystem::equivalent(path, read, ignored))
+      if (std::filesystem::equivalent(path, read, ignored))
         throw std::invalid_argument("the results would overwrite " + path +
                                     ", which they are made from: give them another name");
     }
+  }
 }
 
 void writeStudy(const AccuracyStudy& study, const Options& o) {
-  Files files{{o.csv, accuracyCsv(study)}, {o.svg, accuracySvg(study, true)}};
-  if (!o.report.empty()) {
-    files.emplace_back(besideReport(o, ".csv"), accuracyCsv(study));
-    files.emplace_back(besideReport(o, ".svg"), accuracySvg(study, true));
-    files.emplace_back(o.report, accuracyPage(study));
-  }
-  for (const auto& [path, text] : files)
-    if (!path.empty()) writeWholeFile(path, [&text = text](std::ostream& file) { file << text; });
+  std::vector<std::string> texts;  // all made before the first is written
+  const std::vector<File> files = filesOf(o);
+  for (const File& file : files) texts.push_back(file.second(study));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    writeWholeFile(files[i].first, [&](std::ostream& file) { file << texts[i]; });
   if (!o.image.empty()) drawAccuracy(study, o.image);  // last, as it may lack a display
 }
 
@@ -187,7 +197,7 @@ void addAccuracy(CLI::App& program) {
       "  palpate accuracy data/kidney.vtp --levels 1 2 3 --report kidney_accuracy.html\n"
       "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat");
   command->callback([options] {
-    requireOtherFiles(*options);
+    requireSensibleFiles(*options);
     const AccuracyStudy study = studyAccuracy(options->study);
     printStudy(study);
     writeStudy(study, *options);

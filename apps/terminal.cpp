@@ -51,23 +51,28 @@ const std::vector<std::string> kMasks{"linear",   "uniform",  "gaussian",
 
 void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending) {
   const auto complaint = [what, ending](const std::string& name) -> std::string {
-    const std::filesystem::path path = name,
-                                folder = path.has_parent_path() ? path.parent_path() : ".";
     if (name.empty()) return "the name of a file is missing";
+    const std::filesystem::path path = name;
     if (!ending.empty() && CLI::detail::to_lower(path.extension().string()) != ending)
       return what + " are written as " + ending + ": choose a name that ends so, not " + name;
-    std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown))
-      return name + " cannot be written: it is a folder";
-    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-      return name + " cannot be written: it is not an ordinary file";
-    if (!std::filesystem::is_directory(folder, unknown))
-      return name + " cannot be written: there is no folder " + folder.string();
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-      return name + " cannot be written: " + std::strerror(errno);
-    return {};
+    return whyUnwritable(name);
   };
   option->check(CLI::Validator(complaint, ""));
+}
+
+std::string whyUnwritable(const std::string& name) {
+  const std::filesystem::path path = name,
+                              folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown))
+    return name + " cannot be written: it is a folder";
+  if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
+    return name + " cannot be written: it is not an ordinary file";
+  if (!std::filesystem::is_directory(folder, unknown))
+    return name + " cannot be written: there is no folder " + folder.string();
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    return name + " cannot be written: " + std::strerror(errno);
+  return {};
 }
 
 void writeSurface(vtkPolyData* surface, const std::string& path) {

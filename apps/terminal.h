@@ -25,6 +25,8 @@ namespace palpate::app {
 /// @param what    what is written, for the sentence.
 /// @param ending  empty for any.
 void requireWritable(CLI::Option* option, const std::string& what, const std::string& ending);
+/// A sentence, nothing for a path that can be written.
+std::string whyUnwritable(const std::string& path);
 /// @throws std::runtime_error with the writer's sentence.
 void writeSurface(vtkPolyData* surface, const std::string& path);
 

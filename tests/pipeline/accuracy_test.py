@@ -247,6 +247,15 @@ class Refusals(unittest.TestCase):
         self.refused("missing.vtp", "missing.vtp")
         self.refused("Young", surface("sphere"), "--fix-half-space", 0, 0, 0, 0, 0, 1)
 
+    def test_of_files_that_cannot_be_written_come_before_the_work(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "page.svg").mkdir()
+            done = accuracy(surface("sphere"), *HELD_SPHERE, "--levels", 1, 2, "--report",
+                            Path(folder) / "page.html")
+            self.assertGreater(done.returncode, 0)
+            self.assertRegex(done.stderr, "page.svg cannot be written: it is a folder")
+            self.assertEqual(done.stdout, "")
+
     def test_of_a_reference_file_name_its_line(self):
         held = (surface("sphere"), *HELD_SPHERE, "--radius", 0.5)
         path = Path(FOLDER.name) / "bad.csv"
