@@ -117,7 +117,7 @@ TEST_F(AHandThatFeels, AMissedTickDoesNotLetTheForceChangeFaster) {
   EXPECT_LE((tick(50 * kPeriod).force - last).norm(), settings_.forceSlew * kPeriod * (1 + 1e-12));
 }
 
-TEST_F(AHandThatFeels, NothingInTheSameTickAsAPoseThatIsNotValid) {
+TEST_F(AHandThatFeels, AForceThatFadesLinearlyToExactlyZeroAfterAPoseThatIsNotValid) {
   std::vector<ToolPose> poses(8);
   poses[0].position.y() = NAN;
   poses[1].position.x() = INFINITY;
@@ -132,14 +132,20 @@ TEST_F(AHandThatFeels, NothingInTheSameTickAsAPoseThatIsNotValid) {
   for (const ToolPose& pose : poses) {
     state_.pose = ToolPose();
     tickUntilItRenders();
-    EXPECT_GT(tick().force.norm(), 0.9);
-    state_.pose = pose;
-    const Wrench wrench = tick();
-    EXPECT_EQ(wrench.force, Vector3d::Zero());
-    EXPECT_EQ(wrench.torque, Vector3d::Zero());
-    EXPECT_EQ(safety_.report().fault, Fault::InvalidPose);
-    EXPECT_EQ(faults(Fault::InvalidPose), ++count);
-    state_.pose = ToolPose();
+    const Wrench before = tick();
+    EXPECT_GT(before.force.norm(), 0.9);
+    const int ticks = static_cast<int>(std::lround(settings_.fadeSeconds / kPeriod));
+    for (int i = 1; i <= ticks; ++i) {
+      state_.pose = i < 4 ? pose : ToolPose();  // nor does it stop when they are valid again
+      const Wrench wrench = tick();
+      const double share = 1 - i / static_cast<double>(ticks);
+      EXPECT_LE((wrench.force - share * before.force).norm(), 1e-15);
+      EXPECT_LE((wrench.torque - share * before.torque).norm(), 1e-15);
+      EXPECT_EQ(safety_.report().fault, Fault::InvalidPose);
+    }
+    EXPECT_EQ(tick().force, Vector3d::Zero());
+    count += 3;
+    EXPECT_EQ(faults(Fault::InvalidPose), count);
     expectToReturnByARamp();
   }
 }
@@ -189,6 +195,25 @@ TEST_F(AHandThatFeels, AForceThatFadesLinearlyToExactlyZeroInTheFadeTimeAfterAJu
     expectToReturnByARamp();
   }
   EXPECT_EQ(faults(Fault::Jump), 3);
+}
+
+TEST_F(AHandThatFeels, TheTimeOfTheFirstFaultOfEachKindIsKept) {
+  for (int i = 0; i < 20; ++i) tick();
+  state_.pose.position.x() = NAN;
+  for (int i = 0; i < 5; ++i) tick();
+  state_.pose = ToolPose();
+  tick(2 * kPeriod);
+  present_ = false;
+  for (int i = 0; i < 3; ++i) tick();
+  present_ = true;
+  for (int i = 0; i < 30; ++i) tick();
+  state_.pose.position.x() = NAN;
+  tick();
+  EXPECT_EQ(faults(Fault::InvalidPose), 6);
+  EXPECT_EQ(faults(Fault::Unplugged), 3);
+  const auto& first = safety_.report().firstFaults;
+  EXPECT_NEAR(first[static_cast<int>(Fault::InvalidPose)], 20 * kPeriod, 1e-12);
+  EXPECT_NEAR(first[static_cast<int>(Fault::Unplugged)], 27 * kPeriod, 1e-12);
 }
 
 TEST_F(AHandThatFeels, FadingTakesTheSameTimeWhenTicksAreMissed) {

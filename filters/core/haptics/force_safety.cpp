@@ -209,7 +209,8 @@ void ForceSafety::render(const Wrench& wanted) noexcept {
 
 void ForceSafety::endWith(Fault fault) noexcept {
   if (fault != Fault::None) {
-    ++report_.faults[static_cast<int>(fault)];
+    const auto number = static_cast<std::size_t>(fault);
+    if (report_.faults[number]++ == 0) report_.firstFaults[number] = time_;
     report_.fault = fault;
   }
   settled_ = 0;
@@ -222,7 +223,7 @@ const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcep
   if (fault == Fault::None) fault = solveFault;
   if (fault == Fault::None && undelivered_ >= settings_.largestSilence) fault = Fault::Undelivered;
 
-  if (fault == Fault::InvalidPose || fault == Fault::Unplugged) {
+  if (fault == Fault::Unplugged) {
     endWith(fault);
     rendered_ = sound_ = kNoWrench;
     report_.phase = SafetyPhase::Settling;
@@ -234,6 +235,7 @@ const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcep
   } else {
     render(request.wanted);
   }
+  time_ += elapsed;
   return rendered_;
 }
 

@@ -59,6 +59,7 @@ struct SafetyReport {
   Fault fault = Fault::None;  ///< the last one that ended rendering, until it renders again
   double gain = 0;            ///< share of the wanted force, 0 to 1
   std::array<std::int64_t, kFaultCount> faults{};  ///< ticks with each fault, so far
+  std::array<double, kFaultCount> firstFaults{};   ///< s from the start to its first tick, if any
   std::int64_t limitedTicks = 0;                   ///< with a force or torque above its limit
   std::int64_t slewedTicks = 0;                    ///< with a change above the slew limit
 };
@@ -67,9 +68,9 @@ struct SafetyReport {
 /// same forces.
 ///
 /// After a fault the force is f0 (1 - t/fadeSeconds), f0 the last one without fault, and so exactly
-/// zero in time from any force; a pose that is not valid and a device that is gone make it zero in
-/// the same tick, silence by largestSilence ticks. Then it stays zero until settleSeconds have
-/// passed without a fault, and returns over rampSeconds.
+/// zero in time from any force, also where the fault is a pose that is not valid; a device that is
+/// gone makes it zero in the same tick, silence by largestSilence ticks. Then it stays zero until
+/// settleSeconds have passed without a fault, and returns over rampSeconds.
 class ForceSafety {
  public:
   /// @param period  s, of a tick.
@@ -125,6 +126,7 @@ class ForceSafety {
   int silence_ = 0, undelivered_ = 0, failed_ = 0, late_ = 0;
 
   double settled_ = 0, faded_ = 0;  ///< s
+  double time_ = 0;                 ///< s, from the start to the tick before
   double share_ = 1;                ///< of sound_, while it fades
   Wrench sound_, rendered_;         ///< sound_: the last one without a fault
 };
