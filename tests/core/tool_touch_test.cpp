@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "haptics/snapshot_deformation.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
@@ -107,6 +109,26 @@ TEST(ToolTouch, AStiffnessScaleChangesForcesAndNotShapes) {
   EXPECT_LE((stiff.force - 4 * soft.force).norm(), 1e-6 * stiff.force.norm());
   EXPECT_LE((second.displacement() - first.displacement()).norm(),
             1e-6 * first.displacement().norm());
+}
+
+TEST(ToolTouch, TheLastSettingHoldsHoweverManyThereWereSinceTheLastStep) {
+  const TouchedBody body = touchedSphere(2, true);
+  ToolTouch touch(body.greens, body.mesh, {ballTool(0.3)}, 0.3);
+  const ToolPose pose = at(0.1, 0, 1.25);
+  Wrench before, after;
+  for (int tick = 0; tick < 10; ++tick) touch.step(&pose, &before);
+  for (int i = 0; i < 1000; ++i) {
+    touch.setStiffnessScale(1 + i);
+    touch.setFriction(0.01 * i);
+  }
+  touch.setStiffnessScale(2);
+  touch.setFriction(0.3);
+  touch.step(&pose, &after);
+  EXPECT_LE((after.force - 2 * before.force).norm(), 1e-6 * after.force.norm());
+  for (const double bad : {-1.0, HUGE_VAL, std::nan("")}) {
+    EXPECT_THROW(touch.setFriction(bad), std::invalid_argument);
+    EXPECT_THROW(touch.setStiffnessScale(bad), std::invalid_argument);
+  }
 }
 
 TEST(ToolTouch, PartsOfAToolAddUpToItsWrench) {

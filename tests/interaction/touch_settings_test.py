@@ -104,6 +104,20 @@ class Settings(Touching):
         edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)  # each of them twice
         self.assertAlmostEqual(style.GetMaskRadius() / (2 * edges.mean()), 1, delta=1e-12)
 
+    def test_that_were_made_last_hold_however_many_came_between_two_ticks(self):
+        for radius in (0, 0.03):
+            style = self.scripted(path((0, (0, 0, 5 + 1e3 * radius)), (REST, (0, 0, 5 + 1e3 * radius)),
+                                       (0.3, (0, 0, -2 + 1e3 * radius)), (9, (0, 0, -2 + 1e3 * radius))),
+                                  radius)
+            self.run_well(style, REST + 0.4)
+            before = style.force()
+            for i in range(200):
+                self.assertTrue(style.SetStiffnessScale(1 + 0.01 * i) and style.SetFriction(0.01 * i))
+            self.assertTrue(style.SetStiffnessScale(0.5) and style.SetFriction(0.3))
+            self.run_well(style, 0.2)  # points change their stiffness over 100 ticks
+            self.assertGreater(before[2], 0.1)
+            self.assertLess(np.abs(style.force() - 0.5 * before).max(), 1e-6 * before[2])
+
     def test_of_the_rate_count_ticks(self):
         for rate in (250, 1000, 2000):
             style = Touch(block_model())

@@ -3,7 +3,9 @@
 
 #include "haptics/tool_touch.h"
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "contact/mesh_shape.h"
 
@@ -39,7 +41,9 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
                      const UnilateralContactSettings& settings,
                      const std::vector<ElasticPartner>& partners)
     : contact_(std::move(greens), std::move(mesh), obstaclesOf(tools, friction, partners),
-               settings) {
+               settings),
+      friction_(friction),
+      wantedFriction_(friction) {
   if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
   for (const auto& tool : tools) {
     tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNoWrench});
@@ -48,7 +52,19 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
   for (const ElasticPartner& partner : partners) poses_.push_back(partner.pose);
 }
 
+/// What was set since the last step; it has been found to be in range.
+void ToolTouch::takeOver() noexcept {
+  const double friction = wantedFriction_.load(std::memory_order_relaxed);
+  for (std::size_t t = 0; friction != friction_ && t < tools_.size(); ++t)
+    for (int part = 0; part < tools_[t].tool->partCount(); ++part)
+      contact_.setFriction(tools_[t].firstPart + part, friction);
+  friction_ = friction;
+  const double scale = wantedScale_.load(std::memory_order_relaxed);
+  if (scale != contact_.stiffnessScale()) contact_.setStiffnessScale(scale);
+}
+
 ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noexcept {
+  takeOver();
   for (int t = 0; t < toolCount(); ++t) {
     tools_[t].pose = poses[t];
     tools_[t].tool->place(poses[t], poses_.data() + tools_[t].firstPart);
@@ -84,14 +100,18 @@ void ToolTouch::reset() noexcept {
   for (Held& held : tools_) held.wrench = kNoWrench;
 }
 
-void ToolTouch::setFriction(double friction) noexcept {
-  for (const Held& held : tools_)
-    for (int part = 0; part < held.tool->partCount(); ++part)
-      contact_.setFriction(held.firstPart + part, friction);
+void ToolTouch::setFriction(double friction) {
+  if (!(friction >= 0) || !std::isfinite(friction))
+    throw std::invalid_argument("the coefficient of friction must be at least 0 and finite, not " +
+                                std::to_string(friction));
+  wantedFriction_.store(friction, std::memory_order_relaxed);
 }
 
-void ToolTouch::setStiffnessScale(double scale) noexcept {
-  contact_.setStiffnessScale(scale);
+void ToolTouch::setStiffnessScale(double scale) {
+  if (!(scale > 0) || !std::isfinite(scale))
+    throw std::invalid_argument("a stiffness scale must be positive and finite, not " +
+                                std::to_string(scale));
+  wantedScale_.store(scale, std::memory_order_relaxed);
 }
 
 ContactSnapshot ToolTouch::makeSnapshot() const {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -41,21 +42,24 @@ class ToolTouch final : public TouchModel {
   ContactSnapshot makeSnapshot() const override;
   void fill(ContactSnapshot& snapshot) const noexcept override;
 
-  /// Coulomb's mu of all tools, from the next step on.
-  /// @param friction  >= 0.
-  void setFriction(double friction) noexcept;
+  /// Coulomb's mu of all tools, from the next step on. Any thread may set it, as often as it likes:
+  /// the one set last holds.
+  /// @throws std::invalid_argument unless it is at least 0 and finite.
+  void setFriction(double friction);
   /// Whether torques are computed, as they are at first; otherwise they are zero, in snapshots too.
   void setTorques(bool computed) noexcept { torques_ = computed; }
   /// Whether tools hold the surface while their buttons are pressed; at first they do not.
   void setHolds(bool hold) noexcept { holds_ = hold; }
-  /// @param scale  of all forces, positive.
-  void setStiffnessScale(double scale) noexcept;
+  /// By what all forces are scaled, as setFriction.
+  /// @throws std::invalid_argument unless it is positive and finite.
+  void setStiffnessScale(double scale);
 
   const UnilateralContact& contact() const noexcept { return contact_; }
   /// What the surface does to one part of a tool, about the part's position.
   Wrench partWrench(int tool, int part) const noexcept;
 
  private:
+  void takeOver() noexcept;
   void describe(ContactSnapshot& snapshot) const noexcept;
   struct Held {
     std::shared_ptr<const TouchTool> tool;
@@ -68,6 +72,10 @@ class ToolTouch final : public TouchModel {
   UnilateralContact contact_;
   ContactCertificate certificate_;
   bool torques_ = true, holds_ = false;
+  double friction_;  ///< as the contact has it
+
+  // Handed over:
+  std::atomic<double> wantedFriction_, wantedScale_{1};
 };
 
 }  // namespace palpate

@@ -43,8 +43,7 @@ void HapticTouch::SetFriction(double mu)
   }
   else
   {
-    this->Loop->post(
-      [mu](TouchModel& model) noexcept { static_cast<ToolTouch&>(model).setFriction(mu); });
+    static_cast<ToolTouch&>(*this->Session->model()).setFriction(mu);
   }
 }
 
@@ -86,8 +85,7 @@ void HapticTouch::SetStiffnessScale(double scale)
   }
   else
   {
-    this->Loop->post([scale](TouchModel& model) noexcept
-      { static_cast<ToolTouch&>(model).setStiffnessScale(scale); });
+    static_cast<ToolTouch&>(*this->Session->model()).setStiffnessScale(scale);
   }
 }
 
