@@ -106,6 +106,7 @@ void runGrasp(const TouchOptions& options) {
   warnOfUnits(surface);
   const convert::ServedModel served = convert::servedModelOf(surface);
   const SceneBody body{served.greens, served.mesh};
+  requireTouchable(body);
   const GraspApproach approach =
       approachTo(body, Eigen::Vector3d(directionOntoFreeSurface(surface).data()));
   const double length =

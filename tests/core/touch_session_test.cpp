@@ -12,6 +12,7 @@
 #include "support/counting_greens.h"
 #include "support/process_state.h"
 #include "support/refusals.h"
+#include "support/synthetic_greens.h"
 
 namespace palpate::test {
 namespace {
@@ -298,12 +299,101 @@ TEST(TouchSessions, RefuseToolsOfAnotherUnit) {
   for (const char* shape : {"\"shape\": \"sphere\", \"radius\": ",
                             "\"shape\": \"capsule\", \"length\": 1, \"radius\": ",
                             "\"shape\": \"hand\", \"length\": "}) {
-    for (const char* size : {"1e-300", "1e-5", "1e5"})
+    for (const char* size : {"1e-300", "1e-5", "40", "1e5"})
       EXPECT_TRUE(isRefused([&] { Counted(body, shape + std::string(size), ""); },
                             "does not fit a model of "))
           << shape << size;
-    EXPECT_NO_THROW(Counted(body, shape + std::string("0.001"), ""));
+    for (const char* size : {"0.001", "30"})
+      EXPECT_NO_THROW(Counted(body, shape + std::string(size), ""));
   }
+}
+
+/// The Green's functions of the nodes above a height alone.
+TouchedBody withColumnsAbove(const TouchedBody& body, double height) {
+  GreensFunctionsInfo info = body.greens->info();
+  info.columnNodes.clear();
+  for (int v = 0; v < body.mesh->vertexCount(); ++v)
+    if (body.mesh->points()(2, v) > height) info.columnNodes.push_back(v);
+  return {body.mesh, denseGreens(info, denseMatrix(*body.greens))};
+}
+
+/// Steps a tool from afar to a place.
+ContactCertificate bring(TouchModel& model, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                         Wrench& wrench) {
+  ContactCertificate certificate;
+  ToolPose pose;
+  for (int tick = 0; tick <= 40; ++tick) {
+    pose.position = from + tick / 40. * (to - from);
+    certificate = model.step(&pose, &wrench);
+  }
+  return certificate;
+}
+
+TEST(TouchSessions, ServeModelsOfSomeColumnsWhereTheseAreAndTellWhereTheyAreNot) {
+  const TouchedBody whole = touchedSphere(3, true), part = withColumnsAbove(whole, 0.3);
+  const Scene scene = parseScene(sceneText(kBall, "\"friction\": {\"mu\": 0.3}"));
+  EXPECT_TRUE(warningsOf(scene, {{whole.greens, whole.mesh}}).empty());
+  const auto warnings = warningsOf(scene, {{part.greens, part.mesh}});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("has no Green's functions of "), std::string::npos);
+  EXPECT_NE(warnings[0].find("`palpate precompute` without --columns"), std::string::npos);
+
+  TouchSession all(scene, {{whole.greens, whole.mesh}}), some(scene, {{part.greens, part.mesh}});
+  Wrench expected, wrench;
+  bring(*all.model(), {0, 0, 1.6}, {0.05, 0, 1.25}, expected);
+  ContactCertificate certificate = bring(*some.model(), {0, 0, 1.6}, {0.05, 0, 1.25}, wrench);
+  EXPECT_FALSE(certificate.failed || certificate.uncomputed || certificate.budgetCut);
+  EXPECT_GT(wrench.force.z(), 0);
+  EXPECT_LE((wrench.force - expected.force).norm(), 1e-12 * expected.force.norm());
+
+  some.model()->reset();
+  certificate = bring(*some.model(), {1.6, 0, 0}, {1.25, 0, 0}, wrench);
+  EXPECT_TRUE(certificate.failed && certificate.uncomputed);
+  EXPECT_EQ(wrench.force, Eigen::Vector3d::Zero());
+  EXPECT_EQ(wrench.torque, Eigen::Vector3d::Zero());
+  ContactSnapshot snapshot = some.model()->makeSnapshot();
+  some.model()->fill(snapshot);
+  EXPECT_EQ(snapshot.loadedCount, 0);
+  EXPECT_FALSE(snapshot.tools[0].touching);
+}
+
+TEST(TouchSessions, RefuseBodiesThatNoToolCanTouch) {
+  const Shape shape = jitteredSphere(1, 0.2);
+  const std::vector<unsigned char> types(shape.mesh()->vertexCount(), 0);
+  const TouchedBody cavity = touchedBody(shape, types, true, Domain::Exterior);
+  const TouchedBody none = withColumnsAbove(touchedSphere(1, true), 2);
+  for (const std::string& tool : {kPoint, kBall}) {
+    EXPECT_TRUE(isRefused([&] { Counted(cavity, tool, ""); }, "material lies outside its surface"));
+    EXPECT_TRUE(isRefused([&] { Counted(none, tool, ""); }, "no Green's functions of free vert"));
+  }
+}
+
+TEST(TouchSessions, RefusePartnersOfSomeColumns) {
+  const TouchedBody whole = touchedSphere(1, true), part = withColumnsAbove(whole, 0.3);
+  const Scene scene =
+      parseScene(sceneText(kBall, "\"elastic_elastic\": true",
+                           "{\"file\": \"a\"}, {\"file\": \"b\", \"position\": [0, 0, 3]}"));
+  const SceneBody all{whole.greens, whole.mesh}, some{part.greens, part.mesh};
+  EXPECT_TRUE(isRefused([&] { TouchSession(scene, {all, some}); }, "model 1 meets the first"));
+  EXPECT_NO_THROW(TouchSession(scene, {some, all}));
+}
+
+TEST(TouchSessions, WarnOfToolsAndMasksThatTheMeshIsTooCoarseFor) {
+  const TouchedBody body = touchedSphere(2, true);
+  const double edge = body.mesh->meanEdgeLength();
+  const auto warnings = [&](const std::string& tool, const std::string& effects) {
+    return warningsOf(parseScene(sceneText(tool, effects)), {{body.greens, body.mesh}});
+  };
+  const auto ball = [&](double edges) {
+    return "\"shape\": \"sphere\", \"radius\": " + std::to_string(edges * edge);
+  };
+  EXPECT_TRUE(warnings(ball(0.3), "").empty());
+  ASSERT_EQ(warnings(ball(0.1), "").size(), 1u);
+  EXPECT_NE(warnings(ball(0.1), "")[0].find("much smaller than the model's edges"),
+            std::string::npos);
+  EXPECT_TRUE(warnings(kPoint, "").empty());
+  EXPECT_TRUE(warnings(kPoint, "\"masks\": {\"radius_edges\": 2}").empty());
+  EXPECT_EQ(warnings(kPoint, "\"masks\": {\"radius_edges\": 0.3}").size(), 1u);
 }
 
 TEST(TouchSessions, RefuseWhatTheyCannotHold) {

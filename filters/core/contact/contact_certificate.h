@@ -13,6 +13,8 @@ struct ContactCertificate {
   int contactCount = 0;    ///< nodes, or points, that bear a force
   bool budgetCut = false;  ///< whether the budget ended the solve before its tolerance was met
   bool failed = false;     ///< no usable force
+  /// Whether it failed where Green's functions are needed that were not computed.
+  bool uncomputed = false;
 };
 
 }  // namespace palpate

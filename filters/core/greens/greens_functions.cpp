@@ -23,6 +23,12 @@ GreensFunctions::GreensFunctions(GreensFunctionsInfo info)
   }
 }
 
+int GreensFunctions::missingCount() const {
+  int count = 0;
+  for (int node = 0; node < nodeCount(); ++node) count += !isFixed(node) && !hasColumn(node);
+  return count;
+}
+
 void GreensFunctions::requireColumns(NodeList nodes) const {
   for (int node : nodes) {
     if (node < 0 || node >= nodeCount())

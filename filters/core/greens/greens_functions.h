@@ -59,6 +59,8 @@ class GreensFunctions {
   int columnCount() const { return static_cast<int>(info_.columnNodes.size()); }
   bool isFixed(int node) const { return info_.conditions.isFixed(node); }
   bool hasColumn(int node) const { return columnOfNode_[node] >= 0; }
+  /// Free nodes without a column, on which no force can act.
+  int missingCount() const;
   double vertexArea(int node) const { return info_.vertexAreas[node]; }
 
   /// Copies the blocks Xi[rows, columns].

@@ -68,6 +68,8 @@ const char* describe(Fault fault) noexcept {
       return "no usable force from the model";
     case Fault::LateSolves:
       return "forces computed too late";
+    case Fault::Uncomputed:
+      return "touched where the model's Green's functions were not computed";
   }
   return "";
 }
@@ -148,6 +150,7 @@ Fault ForceSafety::judgeSolve(const Request& request) noexcept {
   failed_ = failed ? std::min(failed_ + 1, settings_.failedSolves) : 0;
   const bool late = request.late || request.certificate.budgetCut;
   late_ = late ? std::min(late_ + 1, settings_.lateSolves) : 0;
+  if (request.certificate.uncomputed) return Fault::Uncomputed;
   if (failed_ >= settings_.failedSolves) return Fault::FailedSolves;
   if (late_ >= settings_.lateSolves) return Fault::LateSolves;
   return Fault::None;

@@ -40,8 +40,9 @@ enum class Fault : std::uint8_t {
   Undelivered,   ///< the device takes no wrench
   FailedSolves,  ///< or forces that are not finite
   LateSolves,
+  Uncomputed,  ///< the model has no Green's functions where it is touched
 };
-inline constexpr int kFaultCount = 8;
+inline constexpr int kFaultCount = 9;
 
 /// In words, e.g. "no report from the device".
 const char* describe(Fault fault) noexcept;

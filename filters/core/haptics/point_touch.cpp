@@ -33,6 +33,7 @@ PointTouch::PointTouch(std::shared_ptr<const SurfaceStiffness> stiffness, int to
   tools_.assign(toolCount, SlidingContact(stiffness, surface));
   poses_.resize(toolCount);
   slotOfNode_.assign(stiffness->mesh().vertexCount(), -1);
+  isPartial_ = stiffness->greens().missingCount() > 0;
   versions_.push_back(std::make_unique<const Version>(Version{std::move(stiffness), 0}));
   current_ = versions_.back().get();
   wanted_ = current_;
@@ -151,6 +152,7 @@ ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noe
     certificate_.contactCount += tool.isTouching();
     certificate_.budgetCut |= tool.wasHeldBack();
     certificate_.failed |= tool.isUnserved();
+    certificate_.uncomputed |= isPartial_ && tool.isUnserved();
     if (tool.isTouching())
       certificate_.coneViolation = std::max(certificate_.coneViolation, tool.coneExcess());
   }

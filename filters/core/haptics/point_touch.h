@@ -102,6 +102,7 @@ class PointTouch final : public TouchModel {
   Eigen::VectorXd forces_, guess_;  ///< of the last sweep; what it began with
   AndersonMixing mixing_;
   ContactCertificate certificate_;
+  bool isPartial_;  ///< whether free nodes lack Green's functions
   const Version* current_;
   mutable std::vector<int> slotOfNode_;  ///< of a node in the snapshot being filled, or -1
 

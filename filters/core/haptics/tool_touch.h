@@ -30,6 +30,7 @@ class ToolTouch final : public TouchModel {
 
   /// @param friction  Coulomb's mu between the surface and all tools.
   /// @param partners  other bodies that the surface meets; tools do not touch them.
+  ///                  With Green's functions of all their free vertices: contacts slide to any.
   /// @throws std::invalid_argument as UnilateralContact, and without a tool.
   ToolTouch(std::shared_ptr<const GreensFunctions> greens, std::shared_ptr<const SurfaceMesh> mesh,
             std::vector<std::shared_ptr<const TouchTool>> tools, double friction,
@@ -37,6 +38,7 @@ class ToolTouch final : public TouchModel {
             const std::vector<ElasticPartner>& partners = {});
 
   int toolCount() const override { return static_cast<int>(tools_.size()); }
+  /// Fails, without any force, where a point that comes near a tool lacks Green's functions.
   ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept override;
   void reset() noexcept override;
   ContactSnapshot makeSnapshot() const override;
@@ -72,6 +74,7 @@ class ToolTouch final : public TouchModel {
   UnilateralContact contact_;
   ContactCertificate certificate_;
   bool torques_ = true, holds_ = false;
+  bool isPartial_;   ///< whether free nodes lack Green's functions
   double friction_;  ///< as the contact has it
 
   // Handed over:

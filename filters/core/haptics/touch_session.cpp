@@ -32,6 +32,14 @@ void requireBodies(const Scene& scene, const std::vector<SceneBody>& bodies) {
     if (!bodies[i].greens || !bodies[i].mesh)
       throw std::invalid_argument("the scene's model " + std::to_string(i) +
                                   " has no surface or no Green's functions");
+  for (const SceneBody& body : bodies) requireTouchable(body);
+  for (std::size_t i = 1; i < bodies.size(); ++i)  // contacts slide to any of its vertices
+    if (bodies[i].greens->missingCount() > 0)
+      throw std::invalid_argument(
+          "the scene's model " + std::to_string(i) +
+          " meets the first with any of its free vertices and lacks Green's "
+          "functions of some: `palpate precompute` without --columns "
+          "computes those of all");
 }
 
 /// As it hangs under its weight. In linear elasticity, the Green's functions of the body as it was
@@ -51,9 +59,9 @@ std::shared_ptr<const SurfaceMesh> hung(const SceneBody& body, const SceneModel&
   }
 }
 
-/// A tool that is smaller or larger by this is hardly meant.
+/// A tool that is smaller or larger by this is hardly meant: a flat one is a plane.
 void requireToFit(double size, const SceneBody& body) {
-  constexpr double least = 1e-4, most = 1e3;
+  constexpr double least = 1e-4, most = 10;
   const double diagonal = body.mesh->diagonal();
   if (size >= least * diagonal && size <= most * diagonal) return;
   throw std::invalid_argument("a tool of " + text(size) + " m does not fit a model of " +
@@ -91,20 +99,24 @@ std::shared_ptr<const TouchTool> toolOf(const SceneTool& tool,
   throw std::invalid_argument("points and tools with a shape do not touch a surface together");
 }
 
+/// Radius of a point's pressure mask.
+double maskRadiusOf(const SceneEffects& effects, const SurfaceMesh& mesh) {
+  return effects.maskRadiusEdges > 0 ? effects.maskRadiusEdges * mesh.meanEdgeLength()
+                                     : effects.maskRadius;
+}
+
 std::shared_ptr<TouchModel> pointTouch(const Scene& scene, const SceneBody& body) {
   const SceneEffects& effects = scene.effects;
   for (const SceneTool& tool : scene.tools)
     if (tool.shape != ToolShape::Point)
       throw std::invalid_argument("points and tools with a shape do not touch a surface together");
-  const double radius = effects.maskRadiusEdges > 0
-                            ? effects.maskRadiusEdges * body.mesh->meanEdgeLength()
-                            : effects.maskRadius;
   const double modulus = body.greens->info().material.youngsModulus();
   const auto greens = effects.stiffnessScale == 1
                           ? body.greens
                           : body.greens->withYoungsModulus(effects.stiffnessScale * modulus);
   const auto stiffness = std::make_shared<const SurfaceStiffness>(
-      greens, body.mesh, effects.maskShape, radius, effects.stiffnessLimit);
+      greens, body.mesh, effects.maskShape, maskRadiusOf(effects, *body.mesh),
+      effects.stiffnessLimit);
   return std::make_shared<PointTouch>(stiffness, static_cast<int>(scene.tools.size()),
                                       effects.friction);
 }
@@ -132,6 +144,42 @@ std::shared_ptr<TouchModel> toolTouch(
 }
 
 }  // namespace
+
+void requireTouchable(const SceneBody& body) {
+  if (body.greens->info().domain == Domain::Exterior)
+    throw std::invalid_argument(
+        "the model's material lies outside its surface, where no tool can be: only models that "
+        "`palpate precompute --domain interior` made can be touched");
+  const auto free = static_cast<int>(body.greens->info().conditions.freeNodes().size());
+  if (free > 0 && body.greens->missingCount() == free)
+    throw std::invalid_argument(
+        "the model has no Green's functions of free vertices: `palpate precompute` without "
+        "--columns computes those of all");
+}
+
+std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneBody>& bodies) {
+  constexpr double coarse = 0.25, coarseMask = 0.5;  // of the mean edge
+  std::vector<std::string> warnings;
+  const GreensFunctions& greens = *bodies[0].greens;
+  if (const int missing = greens.missingCount())
+    warnings.push_back(
+        "the model has no Green's functions of " + std::to_string(missing) + " of its " +
+        std::to_string(greens.info().conditions.freeNodes().size()) +
+        " free vertices and gives no force near them: `palpate precompute` without --columns "
+        "computes all");
+  const double edge = bodies[0].mesh->meanEdgeLength();
+  const auto warnIf = [&](bool isCoarse, const std::string& what, double radius) {
+    if (isCoarse)
+      warnings.push_back(what + " of radius " + text(radius) +
+                         " m is much smaller than the model's edges, " + text(edge) +
+                         " m: the force depends on the mesh; `palpate refine` makes it finer");
+  };
+  for (const SceneTool& tool : scene.tools)
+    warnIf(tool.radius > 0 && tool.radius < coarse * edge, "a tool", tool.radius);
+  const double mask = scene.isOfPoints() ? maskRadiusOf(scene.effects, *bodies[0].mesh) : 0;
+  warnIf(mask > 0 && mask < coarseMask * edge, "the pressure mask", mask);
+  return warnings;
+}
 
 TouchSession::TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
                            const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes)

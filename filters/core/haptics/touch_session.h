@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "haptics/scene.h"
@@ -20,6 +21,14 @@ struct SceneBody {
   Eigen::VectorXi smoothPatches = {};  ///< #F, as the Green's functions were made with; for gravity
 };
 
+/// @throws std::invalid_argument for a body that no tool can touch: of an exterior domain, whose
+///         material is where tools are, or without Green's functions of any free node.
+void requireTouchable(const SceneBody& body);
+
+/// What a user should know of a scene before relying on its forces, a sentence each: Green's
+/// functions that are missing, tools and masks that the mesh is too coarse for.
+std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneBody>& bodies);
+
 /// A scene at work: the model that a servo loop steps, and the displacements that a slower thread
 /// draws. It holds what the scene's effects need and nothing else.
 class TouchSession {
@@ -27,8 +36,8 @@ class TouchSession {
   /// @param bodies      one for each of the scene's models, in its order.
   /// @param toolMeshes  one for each of its tools, null but for meshes; may be empty without them.
   /// @throws std::invalid_argument if a body or a tool's mesh is missing, for a probe that is not
-  ///         on the first model; and as gravityDisplacement, PointTouch, SurfaceStiffness and
-  ///         ToolTouch.
+  ///         on the first model; and as requireTouchable, gravityDisplacement, PointTouch,
+  ///         SurfaceStiffness and ToolTouch.
   TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
                const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes = {});
 

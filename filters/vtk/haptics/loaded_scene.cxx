@@ -67,7 +67,9 @@ LoadedScene mouseScene()
 SceneBody bodyOf(vtkPolyData* model)
 {
   const convert::ServedModel served = convert::servedModelOf(model);
-  return { served.greens, served.mesh, served.smoothPatches };
+  SceneBody body{ served.greens, served.mesh, served.smoothPatches };
+  requireTouchable(body);
+  return body;
 }
 
 LoadedScene loadScene(const std::string& fileName)
