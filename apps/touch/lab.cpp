@@ -25,6 +25,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "haptics/pressing_hand.h"
 #include "haptics/stability_lab.h"
 #include "haptics/touch_session.h"
 #include "mesh/surface_point.h"
@@ -167,27 +168,6 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
   writePng(view->GetRenderWindow(), path);
 }
 
-/// The free place that is farthest from the support, or the middle of a floating free surface.
-Eigen::Vector3d farthestFreePlace(const SceneBody& body) {
-  const BoundaryConditions& conditions = body.greens->info().conditions;
-  Eigen::Vector3d support = Eigen::Vector3d::Zero();
-  int fixed = 0, farthest = 0;
-  for (int v = 0; v < body.mesh->vertexCount(); ++v)
-    if (conditions.isFixed(v)) {
-      support += body.mesh->points().col(v);
-      ++fixed;
-    }
-  support /= std::max(fixed, 1);
-  double largest = -1;
-  for (int v = 0; v < body.mesh->vertexCount(); ++v) {
-    const double distance = (body.mesh->points().col(v) - support).norm();
-    if (conditions.isFixed(v) || distance <= largest) continue;
-    largest = distance;
-    farthest = v;
-  }
-  return body.mesh->points().col(farthest);
-}
-
 }  // namespace
 
 void runLab(const TouchOptions& options) {
@@ -210,7 +190,8 @@ void runLab(const TouchOptions& options) {
 
   LabSettings settings;
   const Eigen::Vector3d wanted =
-      options.at.empty() ? farthestFreePlace(body) : Eigen::Vector3d(options.at.data());
+      options.at.empty() ? Eigen::Vector3d(body.mesh->points().col(farthestFreeVertex(body)))
+                         : Eigen::Vector3d(options.at.data());
   const SurfacePoint point = nearestSurfacePoint(*body.mesh, wanted);
   settings.place = placeOf(*body.mesh, point);
   settings.direction = -body.mesh->triangleNormals().col(point.triangle);
