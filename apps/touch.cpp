@@ -58,7 +58,7 @@ void addLabOptions(CLI::App& command, TouchOptions& options) {
   CLI::Option* lab =
       command.add_flag("--lab", options.lab,
                        "Press a simulated device into the model instead, and find the stiffness it "
-                       "can render against rate and damping");
+                       "can render, the spectral norm |K|, against rate and damping");
   for (const char* other : {"--device", "--tool-radius", "--friction", "--rate", "--deformation",
                             "--record", "--forces", "--seconds", "--headless", "--plan"})
     lab->excludes(other);

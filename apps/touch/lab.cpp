@@ -97,7 +97,7 @@ void labelRates(vtkAxis* axis, const std::vector<ZWidthPoint>& points) {
   axis->SetCustomTickPositions(places, labels);
 }
 
-/// The model's own stiffness, between two rates.
+/// The model's own stiffness |K|, between two rates.
 void drawLevel(vtkChartXY* chart, double own, double first, double last) {
   vtkNew<vtkTable> level;
   vtkNew<vtkDoubleArray> ends, stiffness;
@@ -124,7 +124,8 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
   view->GetRenderWindow()->SetSize(1000, 700);
   vtkNew<vtkChartXY> chart;
   view->GetScene()->AddItem(chart);
-  chart->SetTitle("largest stable stiffness (marks) and the Colgate bound b > KT/2 + KTd (lines)");
+  chart->SetTitle(
+      "largest stable stiffness |K| (marks) and the Colgate bound b > |K|T/2 + |K|Td (lines)");
   chart->SetShowLegend(true);
   chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
   chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
@@ -155,7 +156,7 @@ void draw(const std::vector<ZWidthPoint>& points, double own, const std::string&
   }
   drawLevel(chart, own, first, last);
   const std::pair<int, const char*> axes[] = {{vtkAxis::BOTTOM, "rate of the servo loop, Hz"},
-                                              {vtkAxis::LEFT, "stiffness, N/m"}};
+                                              {vtkAxis::LEFT, "stiffness |K|, N/m"}};
   for (const auto& [axis, title] : axes) {
     chart->GetAxis(axis)->SetTitle(title);
     chart->GetAxis(axis)->LogScaleOn();
@@ -214,9 +215,10 @@ void runLab(const TouchOptions& options) {
       zWidth(*session.model(), settings, rates, dampings, delays, progress);
   endProgressBar();
 
-  std::printf("pressed at %.6g %.6g %.6g, %.4g deep: %.4g N/m\n", settings.place.x(),
-              settings.place.y(), settings.place.z(), settings.depth, lab.stiffness());
-  std::printf("%10s %12s %8s %16s %16s\n", "rate, Hz", "b, N s/m", "delay", "stable K, N/m",
+  std::printf("pressed at %.6g %.6g %.6g, %.4g deep: |K| %.4g N/m, along the press %.4g N/m\n",
+              settings.place.x(), settings.place.y(), settings.place.z(), settings.depth,
+              lab.stiffness(), lab.pressStiffness());
+  std::printf("%10s %12s %8s %16s %16s\n", "rate, Hz", "b, N s/m", "delay", "stable |K|, N/m",
               "bound, N/m");
   for (const ZWidthPoint& p : points)
     std::printf("%10g %12g %8d %16.5g %16.5g\n", p.rate, p.damping, p.delay, p.largestStable,

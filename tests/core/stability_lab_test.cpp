@@ -153,9 +153,21 @@ TEST_F(StabilityLabAtAWall, TheStiffestAxisDecidesAlsoAcrossThePress) {
   for (const Vector3d& ratio :
        {Vector3d(3, 0, 1), Vector3d(0.2, 3, 1), Vector3d(0.5, 0.7, 1), Vector3d(0, 0, 1)}) {
     Springs springs(200 * ratio);
-    const double expected = critical / ratio.maxCoeff();
-    EXPECT_NEAR(StabilityLab(springs, settings_).largestStable(), expected, 0.01 * expected);
+    const StabilityLab lab(springs, settings_);
+    EXPECT_NEAR(lab.stiffness(), 200 * ratio.maxCoeff(), 1e-6);
+    EXPECT_NEAR(lab.pressStiffness(), 200, 1e-9);
+    EXPECT_NEAR(lab.largestStable(), critical, 0.01 * critical);
   }
+}
+
+TEST_F(StabilityLabAtAWall, AStiffnessWhoseAxesLieAcrossThePressIsItsLargestEigenvalue) {
+  const double critical = criticalStiffness(settings_.device);
+  Springs springs({1000, 100, 100});
+  settings_.direction = {1, 0, -1};
+  const StabilityLab lab(springs, settings_);
+  EXPECT_NEAR(lab.pressStiffness(), 550, 1e-9);
+  EXPECT_NEAR(lab.stiffness(), 1000, 1e-6);
+  EXPECT_NEAR(lab.largestStable(), critical, 0.01 * critical);
 }
 
 TEST_F(StabilityLabAtAWall, ReportsProgressAndStopsOnRequest) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Eigenvalues>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +23,7 @@ constexpr double kLargestSwing =
 constexpr int kWindows = 16;
 constexpr double kMostSeconds = 60;  // watched, for a device that is hardly damped
 constexpr double kLeastRate = 10, kMostRate = 1e5;
+constexpr double kDifference = 0.01;  ///< of the depth, by which stiffness is found
 constexpr long kTicksPerReport = 1 << 14;
 
 void require(bool good, const char* name, double value) {
@@ -111,6 +113,31 @@ class Bench {
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
 };
 
+/// Along the press, and a little along each axis of the stiffness that lies across.
+/// @param press  its direction, by those axes.
+Eigen::Vector3d kickOf(const Eigen::Vector3d& press) {
+  Eigen::Vector3d kick = kKick * press;
+  for (double& part : kick)
+    if (std::abs(part) < kSideKick) part = kSideKick;
+  return kick;
+}
+
+/// The model's stiffness matrix at a place that a tool has come to, by central differences.
+Eigen::Matrix3d stiffnessAt(TouchModel& model, const ToolPose& pose, double difference) {
+  Eigen::Matrix3d stiffness;
+  for (int axis = 0; axis < 3; ++axis) {
+    Wrench forces[2], back;
+    for (int side : {0, 1}) {
+      ToolPose moved = pose;
+      moved.position[axis] += side == 0 ? -difference : difference;
+      model.step(&moved, &forces[side]);
+      model.step(&pose, &back);
+    }
+    stiffness.col(axis) = (forces[0].force - forces[1].force) / (2 * difference);
+  }
+  return stiffness;
+}
+
 }  // namespace
 
 StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
@@ -129,19 +156,25 @@ StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
   model_->step(&pose, &wrench);
   pose.position += settings.depth * direction_;
   model_->step(&pose, &wrench);
-  stiffness_ = -wrench.force.dot(direction_) / settings.depth;
-  if (!(stiffness_ > 0) || !std::isfinite(stiffness_))
+  resistance_ = -wrench.force;
+  pressStiffness_ = resistance_.dot(direction_) / settings.depth;
+  const Eigen::Matrix3d stiffness = stiffnessAt(*model_, pose, kDifference * settings.depth);
+  stiffness_ = stiffness.allFinite() ? stiffness.operatorNorm() : HUGE_VAL;
+  if (!(pressStiffness_ > 0) || !(stiffness_ > 0) || !std::isfinite(stiffness_))
     throw std::invalid_argument(
         "the model does not resist the press: place and direction must lead into its surface");
+  const Eigen::Matrix3d symmetric = (stiffness + stiffness.transpose()) / 2;
+  modes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric).eigenvectors();
 }
 
 LabRun StabilityLab::run(double stiffness, const Progress& progress) const {
   require(stiffness > 0 && std::isfinite(stiffness), "stiffness", stiffness);
   const double mass = settings_.device.mass, period = settings_.device.period;
   const double damping = settings_.device.damping + settings_.device.hand.damping;
+  const double scale = stiffness / stiffness_, along = scale * pressStiffness_;
   // At a relative distance e from the bound, swings shrink like exp(-e b t / 2m): long enough to
   // see a tolerance as a tenth, and some swings.
-  const double swingSeconds = 2 * kPi * std::sqrt(mass / stiffness);
+  const double swingSeconds = 2 * kPi * std::sqrt(mass / along);
   const double pressSeconds = std::max(20 * swingSeconds, 0.1);
   const double seconds =
       std::max(std::min(0.1 * 2 * mass / (settings_.tolerance * damping), kMostSeconds),
@@ -150,33 +183,31 @@ LabRun StabilityLab::run(double stiffness, const Progress& progress) const {
 
   LabSettings settings = settings_;
   const Eigen::Vector3d push =
-      (stiffness + settings.device.hand.stiffness) * settings.depth * direction_;
+      scale * resistance_ + settings.device.hand.stiffness * settings.depth * direction_;
   settings.device.hand.path = nullptr;
   settings.device.hand.push = [&](double t) -> Eigen::Vector3d {
     return t < pressSeconds ? 0.5 * (1 - std::cos(kPi * t / pressSeconds)) * push : push;
   };
-  // Axes across the press and along it.
-  const Eigen::Matrix3d axes =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction_).toRotationMatrix();
-  const Eigen::Vector3d kick = axes * Eigen::Vector3d(kSideKick, kSideKick, kKick) *
-                               settings.depth * std::sqrt(stiffness / mass);
+  const Eigen::Vector3d kick =
+      modes_ * kickOf(modes_.transpose() * direction_) * settings.depth * std::sqrt(along / mass);
 
   LabRun result;
-  Bench bench(*model_, settings, stiffness / stiffness_, progress);
+  Bench bench(*model_, settings, scale, progress);
   for (long tick = 0; tick < press; ++tick)
     if (!bench.tick(result)) return result;
   bench.kick(kick);
   Eigen::Vector3d firstSwing = Eigen::Vector3d::Zero();
   for (int number = 0; number < kWindows; ++number) {
-    Window window;
+    Window window, pressed;
     for (long tick = number * watched / kWindows; tick < (number + 1) * watched / kWindows;
          ++tick) {
       if (!bench.tick(result)) return result;
-      window.add(axes.transpose() * bench.position());
+      window.add(modes_.transpose() * bench.position());
+      pressed.add(direction_.dot(bench.position()) * Eigen::Vector3d::UnitZ());
     }
     result.residual = window.halfRange().maxCoeff();
     const Eigen::Vector3d swing = window.swing();
-    if (swing.z() > kLargestSwing * window.mean().z()) return result;
+    if (pressed.swing().z() > kLargestSwing * pressed.mean().z()) return result;
     if (number == 0) firstSwing = swing;
     result.stable = number == kWindows - 1 && ((swing.array() < firstSwing.array()).all() ||
                                                result.residual <= 2 * settings.device.quantum);

@@ -34,14 +34,15 @@ struct ZWidthPoint {
   double rate;           ///< 1/T, Hz
   double damping;        ///< b of the device, N s/m
   int delay;             ///< d, ticks
-  double largestStable;  ///< N/m, by simulation
+  double largestStable;  ///< N/m, StabilityLab::stiffness by simulation
   double passive;        ///< N/m, servedStiffness(b, T, d): the Colgate bound
 };
 
 /// A laboratory of stability without hardware. A simulated device is pressed to a depth by a
 /// constant force, kicked by three tenths of the depth and a tenth of that sideways, and left
-/// alone: it is stable if its motion there shrinks along every axis, or to two quanta. The hand's
-/// force and the model's are scaled alike, so that every stiffness is tried at the same depth.
+/// alone: it is stable if its motion there shrinks along every axis of the model's stiffness, or to
+/// two quanta. The hand's force and the model's are scaled alike, so that every stiffness is tried
+/// at the same depth.
 class StabilityLab {
  public:
   /// @param model  with one tool; stepped and reset by the lab, and to outlive it.
@@ -49,10 +50,14 @@ class StabilityLab {
   ///         does not resist the press.
   StabilityLab(TouchModel& model, const LabSettings& settings);
 
-  /// The model's own, N/m: force against the press at `depth`, over the depth.
+  /// The model's own at `depth`, N/m: the spectral norm |K| of its matrix there, by differences
+  /// of a hundredth of the depth. Each eigenvalue of K is that of a spring to the sampled device,
+  /// whose damping is the same along every axis: the Colgate bound is on the largest.
   double stiffness() const noexcept { return stiffness_; }
+  /// The force against the press over the depth, N/m: of one direction, and not more.
+  double pressStiffness() const noexcept { return pressStiffness_; }
 
-  /// @param stiffness  that the model is scaled to, N/m.
+  /// @param stiffness  that the model's own is scaled to, N/m.
   /// @param progress   reported to now and then; how far it comes is not known beforehand.
   /// @throws std::invalid_argument if it is not positive; Aborted if `progress` asks for it.
   LabRun run(double stiffness, const Progress& progress = {}) const;
@@ -66,7 +71,9 @@ class StabilityLab {
   TouchModel* model_;
   LabSettings settings_;
   Eigen::Vector3d direction_;
-  double stiffness_;
+  Eigen::Vector3d resistance_ = Eigen::Vector3d::Zero();  ///< to the press at rest, on the model, N
+  Eigen::Matrix3d modes_;  ///< axes of the model's stiffness at rest, the columns
+  double pressStiffness_, stiffness_;
 };
 
 /// Z-width of a model (Colgate & Brown 1994): a point for each rate, damping and delay, the delay
