@@ -31,8 +31,8 @@ namespace palpate::app {
 namespace {
 
 constexpr double kFrameSeconds = 0.032;  ///< of the hand's motion
-constexpr double kRecordingRate = 1000;  ///< moments a second, as `palpate touch` records them
-constexpr int kDefaultFrames = 120;      ///< of the hand that closes by itself
+constexpr double kUnstatedRate = 1000;  ///< moments a second, of a recording that does not state it
+constexpr int kDefaultFrames = 120;     ///< of the hand that closes by itself
 constexpr double kHandOverModel = 1.65;  ///< length of the hand, over the extent along its fingers
 constexpr double kFarther = 0.78;        ///< than a picture of the body alone: the hand is larger
 
@@ -76,7 +76,10 @@ Replay replayOf(const TouchOptions& options, const SceneBody& body, const GraspA
     replay.trace = graspMotion(body, approach, hand);
   } else if (options.device.rfind("scripted:", 0) == 0) {
     replay.trace = finiteRecording(options.device.substr(9));
-    rate = kRecordingRate;
+    rate = replay.trace.rate > 0 ? replay.trace.rate : kUnstatedRate;
+    if (rate * kFrameSeconds < 1)
+      throw std::invalid_argument(
+          "the recording has fewer moments a second than the grasp has frames, 31");
   } else {
     throw std::invalid_argument("a grasp needs a glove's recording: --device scripted:FILE");
   }

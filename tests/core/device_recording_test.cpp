@@ -74,6 +74,25 @@ TEST(DeviceRecordingFile, ComesBackBitForBit) {
   }
 }
 
+TEST(DeviceRecordingFile, StatesItsRateIfThatIsKnown) {
+  DeviceRecording recording = someRecording();
+  for (const double rate : {0.0, 1000.0, 1000 / 3.0}) {
+    recording.rate = rate;
+    const TemporaryPath file;
+    writeDeviceRecording(recording, file.path());
+    EXPECT_EQ(file.text().find("\nrate ") != std::string::npos, rate > 0);
+    const DeviceRecording read = readDeviceRecording(file.path());
+    EXPECT_EQ(read.rate, rate);
+    EXPECT_EQ(read.moments.size(), recording.moments.size());
+  }
+  for (const double rate : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    recording.rate = rate;
+    const TemporaryPath file;
+    EXPECT_TRUE(isRefused([&] { writeDeviceRecording(recording, file.path()); },
+                          "the rate of a recording must not be negative"));
+  }
+}
+
 TEST(DeviceRecordingFile, WhatIsNoNumberStaysNone) {
   DeviceRecording recording;
   recording.moments.resize(1);
@@ -87,16 +106,21 @@ TEST(DeviceRecordingFile, WhatIsNoNumberStaysNone) {
 }
 
 const std::string kHead = "palpate-device-recording 1\nname stylus\nlimits 3 0 0\n";
+const std::string kRated = "palpate-device-recording 2\nname stylus\nlimits 3 0 0\n";
 
 TEST(DeviceRecordingFile, MistakesAreNamedByTheirLine) {
   const std::string state = "1 0 0 0 1 0 0 0 0 0";
   const std::pair<std::string, std::string> cases[] = {
       {"", "line 1 of '*': the file ends before its first line"},
-      {"palpate-device-recording 2\n", "line 1 of '*': a recording begins with"},
+      {"palpate-device-recording 3\n", "line 1 of '*': a recording begins with"},
       {"palpate-device-recording 1\nnom x\n", "line 2 of '*': 'name' is missing"},
       {"palpate-device-recording 1\nname x\nlimits 1 2\n", "line 3 of '*': a limit is missing"},
       {"palpate-device-recording 1\nname x\nlimits 1 -2 0\n", "line 3 of '*': a limit is negative"},
       {kHead, "line 4 of '*': the file ends before the number of moments"},
+      {kHead + "rate 1000\n", "line 4 of '*': 'moments' is missing"},
+      {kRated + "moments 1\n", "line 4 of '*': 'rate' is missing"},
+      {kRated + "rate 0\n", "line 4 of '*': the rate must be positive"},
+      {kRated + "rate inf\n", "line 4 of '*': the rate must be positive"},
       {kHead + "moments -1\n", "line 4 of '*': the number of moments is missing or not"},
       {kHead + "moments 1 1\n", "line 4 of '*': there is more than expected: ' 1'"},
       {kHead + "moments 2\n" + state + "\n", "line 6 of '*': the file ends before its last moment"},

@@ -80,8 +80,9 @@ TEST(RecordingDevices, KeepWhatTheyPassOn) {
   path.moments[2].isThere = false;
   auto scripted = std::make_unique<ScriptedDevice>(path);
   const ScriptedDevice& inner = *scripted;
-  RecordingDevice device(std::move(scripted), 4);
+  RecordingDevice device(std::move(scripted), 4, 500);
   EXPECT_EQ(device.info().name, "path");
+  EXPECT_EQ(device.recording().rate, 500);
   DeviceState state;
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(device.read(state), i != 2);
@@ -90,6 +91,7 @@ TEST(RecordingDevices, KeepWhatTheyPassOn) {
   EXPECT_EQ(inner.wrenches()[4].force, kPush.force);
   const DeviceRecording& kept = device.recording();
   ASSERT_EQ(kept.moments.size(), 4u) << "as many as were asked for";
+  EXPECT_EQ(device.leftOut(), 1u) << "and it tells how many are missing";
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(kept.moments[i].isThere, path.moments[i].isThere);
     EXPECT_EQ(kept.moments[i].state.sequence, i == 2 ? 0 : path.moments[i].state.sequence);

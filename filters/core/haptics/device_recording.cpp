@@ -4,6 +4,7 @@
 #include "haptics/device_recording.h"
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -14,7 +15,8 @@
 namespace palpate {
 namespace {
 
-constexpr const char* kFirstLine = "palpate-device-recording 1";
+constexpr const char* kFirstLine = "palpate-device-recording 2";
+constexpr const char* kFirstLineWithoutRate = "palpate-device-recording 1";
 constexpr std::streamsize kLongestLine = 1 << 16;
 
 /// The lines of a recording and the words of the line under way.
@@ -125,6 +127,9 @@ std::string lineOf(const DeviceMoment& moment) {
 void requireWritable(const DeviceRecording& recording) {
   if (recording.info.name.find_first_of("\r\n") != std::string::npos)
     throw std::invalid_argument("the name of a recorded device must be one line");
+  if (!(recording.rate >= 0) || !std::isfinite(recording.rate))
+    throw std::invalid_argument("the rate of a recording must not be negative, as " +
+                                std::to_string(recording.rate) + " is");
   for (std::size_t i = 0; i < recording.moments.size(); ++i) {
     const int joints = recording.moments[i].state.pose.jointCount;
     if (joints < 0 || joints > ToolPose::kMostJoints)
@@ -139,7 +144,15 @@ void writeTo(std::ostream& file, const DeviceRecording& recording) {
   append(limits, recording.info.largestTorque);
   append(limits, recording.info.largestStiffness);
   limits.back() = '\n';
-  file << kFirstLine << "\nname " << recording.info.name << "\n" << limits;
+  file << (recording.rate > 0 ? kFirstLine : kFirstLineWithoutRate) << "\nname "
+       << recording.info.name << "\n"
+       << limits;
+  if (recording.rate > 0) {
+    std::string rate = "rate ";
+    append(rate, recording.rate);
+    rate.back() = '\n';
+    file << rate;
+  }
   file << "moments " << recording.moments.size() << "\n";
   for (const DeviceMoment& moment : recording.moments) file << lineOf(moment);
 }
@@ -154,7 +167,8 @@ DeviceRecording readDeviceRecording(const std::string& path) {
   LineReader reader(file, path);
   DeviceRecording recording;
   reader.next("its first line");
-  if (reader.line() != kFirstLine)
+  const bool hasRate = reader.line() == kFirstLine;
+  if (!hasRate && reader.line() != kFirstLineWithoutRate)
     reader.refuse(std::string("a recording begins with '") + kFirstLine + "'");
   reader.next("the device's name");
   recording.info.name = reader.after("name");
@@ -166,6 +180,14 @@ DeviceRecording readDeviceRecording(const std::string& path) {
     if (!(*limit >= 0)) reader.refuse("a limit is negative or not a number");
   }
   reader.requireEnd();
+  if (hasRate) {
+    reader.next("the rate");
+    reader.after("rate");
+    recording.rate = reader.number<double>("the rate");
+    if (!(recording.rate > 0) || !std::isfinite(recording.rate))
+      reader.refuse("the rate must be positive");
+    reader.requireEnd();
+  }
   reader.next("the number of moments");
   reader.after("moments");
   const auto count = reader.number<std::size_t>("the number of moments");

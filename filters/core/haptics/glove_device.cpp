@@ -10,13 +10,7 @@ namespace palpate {
 namespace {
 
 DeviceRecording withAllJoints(DeviceRecording trace) {
-  for (std::size_t i = 0; i < trace.moments.size(); ++i) {
-    const DeviceMoment& moment = trace.moments[i];
-    if (moment.isThere && moment.state.pose.jointCount != HandJointCount)
-      throw std::invalid_argument("moment " + std::to_string(i) + " of a glove's trace has " +
-                                  std::to_string(moment.state.pose.jointCount) +
-                                  " joints, not the 22 of a hand");
-  }
+  requireHandJoints(trace);
   return trace;
 }
 
@@ -38,6 +32,16 @@ void setGrasp(double fraction, ToolPose& pose) {
 }
 
 }  // namespace
+
+void requireHandJoints(const DeviceRecording& trace) {
+  for (std::size_t i = 0; i < trace.moments.size(); ++i) {
+    const DeviceMoment& moment = trace.moments[i];
+    if (moment.isThere && moment.state.pose.jointCount != HandJointCount)
+      throw std::invalid_argument("moment " + std::to_string(i) + " of a glove's trace has " +
+                                  std::to_string(moment.state.pose.jointCount) +
+                                  " joints, not the 22 of a hand");
+  }
+}
 
 GloveDevice::GloveDevice(DeviceRecording trace, const HandModel& hand)
     : script_(withAllJoints(std::move(trace))), hand_(hand) {}

@@ -28,6 +28,9 @@ class GloveDevice final : public HapticDevice {
   HandModel hand_;
 };
 
+/// @throws std::invalid_argument naming the first moment that has other than 22 joints.
+void requireHandJoints(const DeviceRecording& trace);
+
 /// A trace of a hand that closes from flat to a fist-like grasp, smoothly.
 /// @param moments  at least 2.
 /// @param pose     of the forearm, kept.

@@ -27,10 +27,12 @@ bool ScriptedDevice::write(const Wrench& wrench) noexcept {
   return true;
 }
 
-RecordingDevice::RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments)
+RecordingDevice::RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments,
+                                 double rate)
     : device_(std::move(device)), mostMoments_(mostMoments) {
   if (!device_) throw std::invalid_argument("there is no device to record");
   recording_.info = device_->info();
+  recording_.rate = rate;
   recording_.moments.reserve(mostMoments);
 }
 
@@ -38,6 +40,8 @@ bool RecordingDevice::read(DeviceState& state) noexcept {
   const bool isThere = device_->read(state);
   if (recording_.moments.size() < mostMoments_)
     recording_.moments.push_back({isThere, isThere ? state : DeviceState()});
+  else
+    ++leftOut_;
   return isThere;
 }
 

@@ -39,8 +39,9 @@ class ScriptedDevice final : public HapticDevice {
 class RecordingDevice final : public HapticDevice {
  public:
   /// @param mostMoments  after which it only passes on.
+  /// @param rate         at which it is read, moments a second; 0 if that is not known.
   /// @throws std::invalid_argument without a device.
-  RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments);
+  RecordingDevice(std::shared_ptr<HapticDevice> device, std::size_t mostMoments, double rate = 0);
 
   const DeviceInfo& info() const override { return device_->info(); }
   bool read(DeviceState& state) noexcept override;
@@ -48,11 +49,13 @@ class RecordingDevice final : public HapticDevice {
 
   /// Not while another thread reads.
   const DeviceRecording& recording() const noexcept { return recording_; }
+  /// Moments that it had no room for. Not while another thread reads.
+  std::size_t leftOut() const noexcept { return leftOut_; }
 
  private:
   std::shared_ptr<HapticDevice> device_;
   DeviceRecording recording_;
-  std::size_t mostMoments_;
+  std::size_t mostMoments_, leftOut_ = 0;
 };
 
 }  // namespace palpate
