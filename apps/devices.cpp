@@ -59,7 +59,7 @@ void printDevices() {
 
 void printBuiltIn() {
   printRow("mouse", "built in: a point that the mouse moves in a window");
-  printRow("simulated", "built in: a hand with mass and damping, for tests of stability");
+  printRow("simulated", "built in: a hand with mass and damping that presses and lifts every 2 s");
   printRow("recording", "built in: replays what another device reported, from a file");
   printRow("glove", "built in: a hand of 22 joints, from a recording");
 }

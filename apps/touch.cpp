@@ -85,12 +85,14 @@ void addLabOptions(CLI::App& command, TouchOptions& options) {
 void addDeviceOptions(CLI::App& command, TouchOptions& options) {
   command.add_option(
       "--device", options.device,
-      "mouse, scripted:FILE, simulated, hid, or hid:VVVV:PPPP as `palpate devices` lists it");
+      "mouse, scripted:FILE, simulated (a hand that presses and lifts every 2 s), hid, or "
+      "hid:VVVV:PPPP as `palpate devices` lists it");
   requireBetween(command.add_option("--rate", options.rate,
                                     "Ticks of the servo loop a second; 1000 by default"),
                  250, 10000);
   requireWritable(command.add_option("--record", options.record,
-                                     "Write the device's motion to this file, at most 120 seconds"),
+                                     "Write the device's motion and its rate to this file: the "
+                                     "first 120 seconds, and a warning of what is left out"),
                   "recordings", "");
   requireWritable(command.add_option("--forces", options.forces,
                                      "Write the forces that a scripted device rendered to this "
@@ -100,7 +102,8 @@ void addDeviceOptions(CLI::App& command, TouchOptions& options) {
 
 void addContactOptions(CLI::App& command, TouchOptions& options) {
   CLI::Option* ball = command.add_option("--tool-radius", options.toolRadius,
-                                         "Touch with a ball of this radius instead of a point");
+                                         "Touch with a ball of this radius instead of a point; of "
+                                         "a scene, in place of its first tool");
   requirePositive(ball, kFarthest);
   requireBetween(command.add_option("--friction", options.friction,
                                     "Coulomb's coefficient, up to 100; 0.3 by default"),

@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 
 #include "picture/virtual_display.h"
@@ -44,6 +45,14 @@ void requireUninterrupted(const TouchOptions& options) {
 }
 
 namespace {
+
+/// Errors are thrown, and warnings printed as the program's own.
+void silenceAll(vtkInteractorStyleHaptic* style) {
+  silence(style);
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  style->AddObserver(vtkCommand::WarningEvent, nothing);
+}
 
 constexpr long long kTicksPerPiece = 100;
 
@@ -81,7 +90,8 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   if (options.maskRadius >= 0) require(style->SetMaskRadius(options.maskRadius), style);
   if (options.stiffnessLimit >= 0) require(style->SetRigidStiffness(options.stiffnessLimit), style);
   if (options.rate != 0) require(style->SetServoRate(options.rate), style);
-  if (!options.deformation.empty()) style->SetDeformation(deformationMode(options.deformation));
+  if (!options.deformation.empty())
+    require(style->SetDeformation(deformationMode(options.deformation)), style);
   if (!options.record.empty()) require(style->SetRecordFileName(options.record.c_str()), style);
   warnOfUnits(style->GetTouchedModel());
 }
@@ -97,6 +107,15 @@ void writeForces(vtkInteractorStyleHaptic* style, const std::string& path) {
   });
 }
 
+void printProbes(vtkInteractorStyleHaptic* style) {
+  for (int probe = 0; probe < style->GetNumberOfProbes(); ++probe) {
+    double u[3];
+    style->GetProbeDisplacement(probe, u);
+    std::cout << "probe " << style->GetProbeName(probe) << "   displacement " << u[0] << " " << u[1]
+              << " " << u[2] << " m\n";
+  }
+}
+
 void printState(vtkInteractorStyleHaptic* style) {
   std::cout << style->GetStatus() << "\n";
   for (int tool = 0; tool < style->GetNumberOfTools(); ++tool) {
@@ -108,10 +127,29 @@ void printState(vtkInteractorStyleHaptic* style) {
                 force[1], force[2], torque[0], torque[1], torque[2]);
     if (style->IsTouching(tool)) std::printf("         at %.6g %.6g %.6g\n", at[0], at[1], at[2]);
   }
+  std::fflush(stdout);
+  printProbes(style);
+  std::cout << style->GetFaultTable() << std::flush;
   std::printf("ticks    %lld, %lld left out\n", static_cast<long long>(style->GetNumberOfTicks()),
               static_cast<long long>(style->GetNumberOfMissedTicks()));
   std::cout << style->GetTimingTable() << std::flush;
 }
+
+/// Of what the style found when it began to touch, and as it ended.
+class Warnings {
+ public:
+  /// Says what has not been said yet.
+  void print(vtkInteractorStyleHaptic* style) {
+    const std::string all = style->GetWarnings();
+    std::istringstream fresh(all.substr(std::min(said_, all.size())));
+    said_ = all.size();
+    for (std::string line; std::getline(fresh, line);)
+      std::cerr << "palpate: warning: " << line << "\n";
+  }
+
+ private:
+  std::size_t said_ = 0;
+};
 
 /// In pieces, between which it can be interrupted.
 void tickThrough(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
@@ -128,7 +166,7 @@ void runHeadless(const TouchOptions& options) {
   std::unique_ptr<VirtualDisplay> display;
   std::unique_ptr<Window> window;
   vtkNew<vtkInteractorStyleHaptic> style;
-  silence(style);
+  silenceAll(style);
   if (!options.image.empty()) {
     display = std::make_unique<VirtualDisplay>();
     window = std::make_unique<Window>(true);
@@ -136,9 +174,12 @@ void runHeadless(const TouchOptions& options) {
   }
   configure(style, options);
   require(style->RunHeadless(0), style);
+  Warnings warnings;
+  warnings.print(style);
   if (window) window->lookAt(style);
   tickThrough(style, options);
   require(style->Stop(), style);
+  warnings.print(style);
   if (!options.forces.empty()) writeForces(style, options.forces);
   if (window) window->write(options.image);
   printState(style);
@@ -162,7 +203,7 @@ struct Clock {
 void runWindow(const TouchOptions& options) {
   if (options.plan) {
     vtkNew<vtkInteractorStyleHaptic> style;
-    silence(style);
+    silenceAll(style);
     configure(style, options);
     const std::string plan = style->GetEvaluationPlan();
     require(!plan.empty(), style);
@@ -175,11 +216,13 @@ void runWindow(const TouchOptions& options) {
         "there is no display for a window: set DISPLAY to one, or run with --headless --seconds N");
   Window window(false);
   vtkNew<vtkInteractorStyleHaptic> style;
-  silence(style);
+  silenceAll(style);
   window.use(style);
   configure(style, options);
   window.interactor()->Initialize();
   require(style->Start(), style);
+  Warnings warnings;
+  warnings.print(style);
   window.lookAt(style);
   Clock clock{options};
   vtkNew<vtkCallbackCommand> look;
@@ -189,6 +232,8 @@ void runWindow(const TouchOptions& options) {
   window.interactor()->Start();
   requireUninterrupted(options);
   require(style->Stop(), style);
+  warnings.print(style);
+  style->Update();
   if (!options.forces.empty()) writeForces(style, options.forces);
   printState(style);
 }

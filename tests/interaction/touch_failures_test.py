@@ -5,6 +5,7 @@ written over, interruptions. Each is a sentence, and nothing is half written."""
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -16,8 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import palpate
-from support.surfaces import PROGRAM
-from support.touch import PRESS, block_model
+from support.surfaces import PROGRAM, cube, points_of
+from support.touch import PRESS, REST, SIZE, TOP, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 
 DATA = Path(__file__).resolve().parents[2] / "data"
@@ -231,7 +232,7 @@ class BadFiles(Program):
 
     def test_units_that_do_not_fit_are_told(self):
         touch = ("touch", self.model, "--headless", "--seconds", 0.1)
-        for radius in (1e-300, 1e-6, 1000):
+        for radius in (1e-300, 1e-6, 2, 1000):
             self.run_badly("does not fit a model of 0.1732 m: are both in metres?", *touch,
                            "--tool-radius", radius)
         self.run_badly("--depth is more than the model's length", "touch", self.model, "--lab",
@@ -248,6 +249,51 @@ class BadFiles(Program):
             self.assertEqual(ran.returncode, 0, ran.stderr)
             self.assertEqual(ran.stderr, "palpate: warning: the model is 173.205 m long: its points are "
                              "taken for metres; are they millimetres?\n")
+
+    def test_tools_that_the_mesh_is_too_coarse_for_are_told_once(self):
+        for option in (("--tool-radius", 0.001), ("--radius", 0.002)):
+            ran = self.start("touch", self.model, "--headless", "--seconds", 0.3, *option)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertRegex(ran.stderr, r"^palpate: warning: (a tool|the pressure mask) of radius "
+                             rf"{option[1]} m is much smaller than the model's edges, 0.0\d+ m: the force "
+                             r"depends on the mesh; `palpate refine` makes it finer\n$")
+
+    def test_models_whose_material_is_outside_are_refused(self):
+        cavity = self.folder / "cavity.vtp"
+        block = cube(3, SIZE)
+        palpate.write(palpate.precompute(block, 1e4, 0.3, fixed=points_of(block)[:, 2] == 0,
+                                         domain="exterior"), cavity)
+        touch = ("touch", cavity)
+        for command in ((*touch, "--headless", "--seconds", 0.1), (*touch, "--plan"), (*touch, "--lab"),
+                        (*touch, "--headless", "--seconds", 0.1, "--tool-radius", 0.01),
+                        ("grasp", cavity)):
+            self.run_badly("the model's material lies outside its surface, where no tool can be: only "
+                           "models that `palpate precompute --domain interior` made can be touched",
+                           *command)
+
+    def test_models_of_some_columns_tell_where_they_are_touched_without(self):
+        block = cube(6, SIZE)
+        points = points_of(block)
+        near = np.flatnonzero((np.linalg.norm(points - TOP, axis=1) < 0.07) & (points[:, 2] > 0))
+        far = np.flatnonzero((points[:, 0] > 0.99 * SIZE) & (points[:, 2] > 0.02))
+        model = self.folder / "part.vtp"
+        for columns, served in ((near, True), (far, False)):
+            part = palpate.precompute(block, 1e4, 0.3, fixed=points[:, 2] == 0, columns=columns)
+            palpate.write(part, model)
+            for tool in ((), ("--tool-radius", 0.02)):
+                lift = 1e3 * tool[1] if tool else 0
+                file = write_recording(self.folder / "motion.txt", path(*(
+                    (seconds, (x, y, z + lift)) for seconds, (x, y, z) in PRESS)))
+                ran = self.start("touch", model, "--device", f"scripted:{file}", "--headless",
+                                 "--seconds", REST + 0.4, *tool)
+                self.assertEqual(ran.returncode, 0, ran.stderr)
+                self.assertRegex(ran.stderr, r"^palpate: warning: the model has no Green's functions of \d+ "
+                                 r"of its \d+ free vertices and gives no force near them: `palpate "
+                                 r"precompute` without --columns computes all\n$")
+                fault = re.search(r"(?m)^tool 0   fault: touched where the model's Green's functions were "
+                                  r"not computed, in \d+ ticks, first at \S+ s$", ran.stdout)
+                self.assertEqual(fault is None, served, ran.stdout)
+                self.assertEqual(" 0 N " in ran.stdout.splitlines()[0], not served, ran.stdout)
 
     def test_a_body_that_folds_over_under_its_weight_is_told(self):
         kidney = palpate.refine(palpate.read(palpate.example("kidney")), 1)

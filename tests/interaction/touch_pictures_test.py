@@ -64,6 +64,16 @@ class Pictures(Windowed):
         self.assertGreater(places["x^C"][0], places["x^E"][0])  # above one another
         self.assertGreater(places["x^E"][0], places["x^H"][0])
 
+    def test_have_a_status_line_that_is_seen_on_any_background(self):
+        for ground in ((1, 1, 1), (0, 0, 0), (0.1, 0.1, 0.4)):
+            style = Touch(block_model())
+            window = TouchWindow(style)
+            self.addCleanup(window.close)
+            window.renderer.SetBackground(*ground)
+            self.assertTrue(style.RunHeadless(0.01), style.GetFailureMessage())
+            line = window.picture()[5:30, 5:200]  # the lowest rows are the first
+            self.assertGreater(np.abs(line - 255 * np.array(ground)).min(axis=-1).max(), 110, ground)
+
     def test_of_a_point_show_the_dent_the_force_and_its_nodes(self):
         self.compare("point.png", self.pressed(0, REST + 0.4), self.pressed(0, REST))
 

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from support.touch import PRESS, RATE, REST, STROKE, Touch, block_model, path, write_recording
+from support.touch import PRESS, RATE, REST, STROKE, TOP, Touch, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 from support.window import read_picture
 
@@ -67,6 +67,37 @@ class Headless(Program):
             printed = self.run_well(*self.scripted(PRESS, limits=limits), "--seconds", REST + 0.4)
             self.assertIn("sticks", printed)
             self.assertEqual("not rendered: its device's limits allow no force" in printed, told)
+
+    def test_a_simulated_hand_presses_and_lifts(self):
+        simulated = ("touch", self.model, "--device", "simulated", "--headless", "--seconds")
+        for tool in ((), ("--tool-radius", 0.02)):
+            self.assertRegex(self.run_well(*simulated, 1, *tool).splitlines()[0], r" s(tick|lide)s ")
+            self.assertIn(" 0 N free", self.run_well(*simulated, 2, *tool))
+
+    def test_faults_are_told_at_the_end_with_their_first_time(self):
+        script = path(*PRESS)
+        script[900:903] = np.nan
+        file = write_recording(self.folder / "broken.txt", script, away=(1200, 1300))
+        printed = self.run_well("touch", self.model, "--device", f"scripted:{file}", "--headless",
+                                "--seconds", len(script) / RATE)
+        self.assertIn("tool 0   fault: a pose that is not finite, out of reach or no rotation, in 3 ticks, "
+                      "first at 0.9 s\ntool 0   fault: the device is not there, in 2 ticks, first at 1.2 s\n",
+                      printed)
+        self.assertNotIn("fault", self.run_well(*self.scripted(PRESS), "--seconds", 1))
+
+    def test_probes_of_a_scene_are_told_with_their_displacements(self):
+        write_recording(self.folder / "press.txt", path(*PRESS))
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps({
+            "models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
+            "devices": [{"name": "m", "type": "scripted", "file": "press.txt"}],
+            "effects": {"masks": {"radius_edges": 2}, "probes": [
+                {"name": "the top", "position": list(TOP)}, {"name": "foot", "node": 0}]}}))
+        printed = self.run_well("touch", "--scene", scene, "--headless", "--seconds", REST + 0.4)
+        found = re.search(r"(?m)^probe the top   displacement (\S+) (\S+) (\S+) m$", printed)
+        self.assertTrue(found, printed)
+        self.assertLess(float(found[3]), -0.001)
+        self.assertIn("probe foot   displacement 0 0 0 m\n", printed)
 
     def test_pictures_need_no_display_and_show_the_press(self):
         for name, seconds in (("before.png", 0.1), ("pressed.png", REST + 0.4)):

@@ -40,7 +40,9 @@ class Recordings(Touching):
         style.SetRecordFileName(str(self.folder / "copy.txt"))
         self.run_well(style, len(path(*PRESS)) / RATE)
         self.assertTrue(style.Stop())
-        self.assertEqual((self.folder / "copy.txt").read_text().splitlines()[3:],
+        copy = (self.folder / "copy.txt").read_text().splitlines()
+        self.assertEqual((copy[0], copy[3]), ("palpate-device-recording 2", f"rate {RATE}"))
+        self.assertEqual(copy[4:],
                          [" ".join(repr(float(n)).removesuffix(".0") for n in line.split())
                           if line[0].isdigit() else line for line in file.read_text().splitlines()[3:]])
 
@@ -51,6 +53,34 @@ class Recordings(Touching):
         self.run_well(style, 0.1)
         self.assertTrue(style.Stop())
         self.assertTrue((self.folder / "late.txt").is_file())
+
+    def test_state_their_rate_and_are_replayed_at_no_other(self):
+        file = self.folder / "fast.txt"
+        style = Touch(block_model())
+        style.SetServoRate(2000)
+        style.SetRecordFileName(str(file))
+        self.run_well(style, 0.1)
+        self.assertTrue(style.Stop())
+        self.assertIn("\nrate 2000\n", file.read_text())
+        again = Touch(block_model())
+        again.SetDeviceToScript(str(file))
+        self.refuse(again, "fast.txt' has 2000 moments a second, but the servo loop runs at 1000 Hz, a "
+                    "moment a tick: choose the recording's rate", again.RunHeadless, 0.1)
+        again.SetServoRate(2000)
+        self.assertTrue(again.RunHeadless(0.1), again.GetFailureMessage())
+
+    def test_that_are_too_long_tell_what_is_left_out(self):
+        style = Touch(block_model())
+        warnings = []
+        style.AddObserver("WarningEvent", lambda *_: warnings.append(style.GetWarnings()))
+        style.SetServoRate(250)
+        style.SetRecordFileName(str(self.folder / "long.txt"))
+        self.run_well(style, 121.5)
+        self.assertEqual(style.GetWarnings(), "")
+        self.assertTrue(style.Stop())
+        told = "the recording holds the first 120 s: the 1.5 s after them are left out\n"
+        self.assertEqual((style.GetWarnings(), warnings), (told, [told]))
+        self.assertIn(f"moments {120 * 250}\n", (self.folder / "long.txt").read_text())
 
     def test_that_cannot_be_written_are_a_failure_that_leaves_nothing(self):
         style = Touch(block_model())
@@ -118,6 +148,17 @@ class Settings(Touching):
             self.assertGreater(before[2], 0.1)
             self.assertLess(np.abs(style.force() - 0.5 * before).max(), 1e-6 * before[2])
 
+    def test_that_the_mesh_is_too_coarse_for_warn_once(self):
+        style = Touch(block_model())
+        warnings = []
+        style.AddObserver("WarningEvent", lambda *_: warnings.append(style.GetWarnings()))
+        for i in range(5):
+            style.SetMaskRadius(0.002 - 1e-4 * i)
+            self.run_well(style, 0.1)
+        self.assertEqual(len(warnings), 1)
+        self.assertIn("the pressure mask of radius 0.002 m is much smaller", warnings[0])
+        self.assertEqual(style.GetWarnings(), warnings[0])
+
     def test_of_the_rate_count_ticks(self):
         for rate in (250, 1000, 2000):
             style = Touch(block_model())
@@ -128,6 +169,19 @@ class Settings(Touching):
             self.assertIn(f"{rate} Hz", style.GetStatus())
             self.assertGreater(style.GetTickTime(0.99), 0)
             self.assertIn("compute", style.GetTimingTable())
+
+    def test_of_a_simulated_hand_let_it_press_and_lift(self):
+        for radius in (0, 0.02):
+            style = Touch(block_model())
+            self.assertTrue(style.SetDeviceToSimulated())
+            self.assertTrue(style.SetToolToSphere(radius) if radius else style.SetToolToPoint())
+            forces = []
+            for second in range(4):  # pressed after each first one, lifted after each second
+                self.run_well(style, 1)
+                forces.append(np.linalg.norm(style.rendered()))
+            self.assertGreater(min(forces[::2]), 0.05)
+            self.assertEqual(forces[1::2], [0, 0])
+            self.assertEqual(style.GetFaultTable(), "")
 
     def test_of_a_device_that_is_not_there_fail_at_the_start(self):
         style = Touch(block_model())
@@ -183,6 +237,65 @@ class Scenes(Touching):
         write_recording(self.folder / "script.txt", path(*PRESS))
         self.assertTrue(style.RunHeadless(REST + 0.4), style.GetFailureMessage())
         self.assertGreater(style.force(1)[2], 0.1)
+
+    def two_tools(self, shapes):
+        return self.scene(
+            tools=[{**shape, "device": name} for shape, name in zip(shapes, "ab")],
+            devices=[{"name": "a", "type": "mouse"}, {"name": "b", "type": "simulated"}])
+
+    def test_keep_their_further_tools_when_the_first_is_changed(self):
+        style = Touch()
+        ball = {"shape": "sphere", "radius": 0.03}
+        self.assertTrue(style.LoadScene(self.two_tools((ball, ball))))
+        self.assertTrue(style.SetToolToSphere(0.02))
+        self.assertEqual(style.GetNumberOfTools(), 2)
+        self.run_well(style, 1)
+        self.assertGreater(np.linalg.norm(style.force(1)), 0.05)
+        together = "points and tools with a shape do not touch a surface together"
+        self.refuse(style, together, style.SetToolToPoint)
+        point = {"shape": "point"}
+        self.assertTrue(style.LoadScene(self.two_tools((point, point))))
+        self.refuse(style, together, style.SetToolToSphere, 0.02)
+        self.assertEqual(style.GetNumberOfTools(), 2)
+
+    def test_tell_how_far_their_probes_go(self):
+        style = Touch()
+        probes = [{"name": "top", "position": [0.05, 0.05, 0.1]}, {"name": "foot", "node": 0}]
+        self.assertTrue(style.LoadScene(self.scene(effects={"probes": probes, "deformation": "none"})))
+        style.MoveProbe(*(TOP + (0, 0, 0.05)))
+        self.run_well(style, 1)
+        style.MoveProbe(*(TOP + (0, 0, 0.028)))
+        self.run_well(style, 1)
+        self.assertEqual([style.GetProbeName(i) for i in range(-1, style.GetNumberOfProbes() + 1)],
+                         ["", "top", "foot", ""])
+        moved = [1.0] * 3
+        style.GetProbeDisplacement(0, moved)
+        self.assertTrue(-0.003 < moved[2] < -0.0015, moved)
+        for probe in (-1, 1, 2):  # none, fixed, none
+            style.GetProbeDisplacement(probe, moved)
+            self.assertEqual(moved, [0, 0, 0])
+
+    def test_of_a_hand_need_a_glove(self):
+        write_recording(self.folder / "stylus.txt", path(*PRESS))
+        style = Touch()
+        for device, told in (({"type": "scripted", "file": "stylus.txt"},
+                              "stylus.txt' moves no hand: moment 0 of a glove's trace has 0 joints"),
+                             ({"type": "simulated"}, "a simulated device has no joints")):
+            self.assertTrue(style.LoadScene(self.scene(
+                tools=[{"shape": "hand", "device": "glove"}], devices=[{"name": "glove", **device}])))
+            self.refuse(style, told, style.RunHeadless, 0.1)
+
+    def test_name_the_file_of_a_tool_that_is_no_body(self):
+        surface = cube(2, 0.02)
+        surface.DeleteCells()
+        surface.BuildCells()
+        surface.DeleteCell(0)
+        surface.RemoveDeletedCells()
+        palpate.write(surface, self.folder / "open.vtp")
+        style = Touch()
+        self.assertTrue(style.LoadScene(self.scene(
+            tools=[{"shape": "mesh", "file": "open.vtp", "device": "mouse"}])))
+        self.refuse(style, "open.vtp: ", style.RunHeadless, 0.1)
 
     def test_have_a_plan_of_what_is_computed(self):
         style = Touch(block_model())

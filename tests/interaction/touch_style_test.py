@@ -184,6 +184,8 @@ class Faults(Touching):
             self.assertEqual(style.GetFault(), fault)
             self.assertEqual(style.events.count("FaultEvent"), 1)
             self.assertIn(fault, style.GetStatus())
+            self.assertRegex(style.GetFaultTable(), rf"^tool 0   fault: {fault}, in 1 ticks, first at "
+                             rf"{at / RATE:g} s\n$")
             lifted = len(path(*PRESS))
             self.run_well(style, (lifted - at) / RATE)
             self.assertEqual(style.events, ["ContactBeginEvent", "FaultEvent", "ContactEndEvent"])
@@ -265,11 +267,13 @@ class Deformation(Touching):
         self.assertTrue((moved == 0).all())
         self.assertTrue((force == self.displacement("all")[1]).all())
 
-    def test_modes_are_clamped_to_those_there_are(self):
+    def test_modes_that_there_are_not_are_refused(self):
         style = Touch(block_model())
-        for given, taken in ((-3, 0), (9, 3), (2, 2)):
-            style.SetDeformation(given)
-            self.assertEqual(style.GetDeformation(), taken)
+        self.assertTrue(style.SetDeformation(2))
+        for mode in (-3, 4, 99):
+            self.refuse(style, f"the deformation must be from 0 (all) to 3 (none), not {mode}",
+                        style.SetDeformation, mode)
+            self.assertEqual(style.GetDeformation(), 2)
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ struct SceneTool {
 enum class DeviceType {
   Mouse,      ///< of whoever shows the scene
   Scripted,   ///< replays a recording
-  Simulated,  ///< a mass in a hand at rest (SimulatedDevice)
+  Simulated,  ///< a hand that presses and lifts (pressingDevice)
   Hid,        ///< by its description, or a known one by its numbers
 };
 
@@ -109,7 +109,8 @@ struct SceneEffects {
 ///   shapes.
 /// - "devices": {"name"; "type": mouse, scripted, simulated or hid; "file" of a scripted one;
 ///   "description" or "vendor_id" and "product_id" of a hid one; "mapping": {"scale" (1), "origin"
-///   (0), "rotation" (none), "force_scale" (1)}}. Each moves one tool.
+///   (0), "rotation" (none), "force_scale" (1)}}. Each moves one tool. A scripted one replays a
+///   recording at the servo rate that this states, a simulated one presses and lifts its tool.
 /// - "effects": {"deformation": all, visible, contact or none (all), "friction": {"mu"} (0),
 ///   "unilateral" (true with shapes: they only press; false, as always with points: what they touch
 ///   is held, and pulled, while the first button of their device is pressed), "torque" (false),

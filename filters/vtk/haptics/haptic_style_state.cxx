@@ -54,6 +54,56 @@ std::string vtkInteractorStyleHaptic::GetFault(int tool)
   return this->Internals->Session.Fault(tool);
 }
 
+int vtkInteractorStyleHaptic::GetNumberOfProbes()
+{
+  return static_cast<int>(this->Internals->Session.Scene().effects.probes.size());
+}
+
+std::string vtkInteractorStyleHaptic::GetProbeName(int probe)
+{
+  const auto& probes = this->Internals->Session.Scene().effects.probes;
+  return probe >= 0 && probe < static_cast<int>(probes.size()) ? probes[probe].name : "";
+}
+
+void vtkInteractorStyleHaptic::GetProbeDisplacement(int probe, double displacement[3])
+{
+  const Eigen::Matrix3Xd& all = this->Internals->Session.ProbeDisplacements();
+  const bool there = probe >= 0 && probe < all.cols();
+  for (int c = 0; c < 3; ++c)
+  {
+    displacement[c] = there ? all(c, probe) : 0;
+  }
+}
+
+std::string vtkInteractorStyleHaptic::GetFaultTable()
+{
+  return this->Internals->Session.FaultTable();
+}
+
+/// Tells what has not been told yet.
+void vtkInteractorStyleHaptic::Warn()
+{
+  std::vector<std::string>& told = this->Internals->Warnings;
+  for (const std::string& warning : this->Internals->Session.Warnings())
+  {
+    if (std::find(told.begin(), told.end(), warning) == told.end())
+    {
+      told.push_back(warning);
+      vtkWarningMacro(<< warning);
+    }
+  }
+}
+
+std::string vtkInteractorStyleHaptic::GetWarnings()
+{
+  std::string lines;
+  for (const std::string& warning : this->Internals->Warnings)
+  {
+    lines += warning + "\n";
+  }
+  return lines;
+}
+
 double vtkInteractorStyleHaptic::GetResidual()
 {
   return this->Internals->Session.Snapshot().contact.certificate.residual;

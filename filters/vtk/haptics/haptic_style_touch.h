@@ -24,6 +24,7 @@ struct vtkInteractorStyleHaptic::Touch
   double Depth = 0;       ///< along the view
   std::vector<char> Touched;
   std::vector<std::string> Faults;
+  std::vector<std::string> Warnings; ///< told
 };
 
 /// Runs what may throw; false and a sentence if it did.

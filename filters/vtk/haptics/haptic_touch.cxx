@@ -4,11 +4,13 @@
 #include "haptic_touch.h"
 
 #include "haptics/evaluation_plan.h"
+#include "haptics/pressing_hand.h"
 
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace palpate
@@ -80,12 +82,27 @@ std::string HapticTouch::EvaluationPlan()
 
 void HapticTouch::SetTool(double radius)
 {
+  const bool isPoint = radius == 0;
+  std::vector<SceneTool>& tools = this->Described().tools;
+  if (isPoint != this->Described().isOfPoints())
+  {
+    if (tools.size() > 1)
+    {
+      throw std::invalid_argument("points and tools with a shape do not touch a surface together: the "
+                                  "scene has further tools");
+    }
+    if (this->Described().models.size() > 1)
+    {
+      throw std::invalid_argument("a point touches one model, and the scene has several");
+    }
+    this->Described().effects.unilateral = !isPoint;
+  }
   this->Change();
-  this->Described().tools.resize(1);
-  SceneTool& tool = this->Described().tools[0];
-  tool.shape = radius > 0 ? ToolShape::Sphere : ToolShape::Point;
+  SceneTool tool;
+  tool.shape = isPoint ? ToolShape::Point : ToolShape::Sphere;
   tool.radius = radius;
-  this->Described().effects.unilateral = radius > 0;
+  tool.device = tools[0].device;
+  tools[0] = tool;
 }
 
 void HapticTouch::SetDevice(const SceneDevice& device)
@@ -141,19 +158,35 @@ vtkPolyData* HapticTouch::Touched() const
   return this->Loaded.FirstModel;
 }
 
-/// The mouse, or a device that must be opened.
-std::shared_ptr<HapticDevice> HapticTouch::Open(const SceneDevice& device)
+/// What moves a tool.
+/// @param mesh  the tool's, if it is one.
+std::shared_ptr<HapticDevice> HapticTouch::Open(const SceneTool& tool, const SurfaceMesh* mesh)
 {
-  if (device.type != DeviceType::Mouse)
+  const SceneDevice& device = this->Described().devices[tool.device];
+  const double rate = this->Described().servo.rate;
+  if (device.type == DeviceType::Mouse)
   {
-    auto opened = openDevice(device);
-    const auto script = std::dynamic_pointer_cast<ScriptedDevice>(opened);
-    if (script && !this->FirstScript)
-    {
-      this->FirstScript = script;
-    }
-    return opened;
+    return this->OpenMouse();
   }
+  if (device.type == DeviceType::Hid)
+  {
+    return openHid(device);
+  }
+  if (device.type == DeviceType::Simulated)
+  {
+    return pressingDevice(
+      planPress(this->Loaded.Bodies[0], tool, mesh, this->Pressed), device.mapping, 1 / rate);
+  }
+  const auto script = openScript(device, tool, rate);
+  if (!this->FirstScript)
+  {
+    this->FirstScript = script;
+  }
+  return script;
+}
+
+std::shared_ptr<HapticDevice> HapticTouch::OpenMouse()
+{
   if (this->Pointer)
   {
     throw std::invalid_argument("there is one mouse: it can move one tool only");
@@ -180,6 +213,7 @@ void HapticTouch::Prepare()
   this->Change(); // what is left of an attempt that failed
   this->Looks.clear();
   this->Silent.clear();
+  this->Pressed.clear();
   std::vector<ServoTool> hands;
   for (std::size_t t = 0; t < this->Described().tools.size(); ++t)
   {
@@ -189,7 +223,7 @@ void HapticTouch::Prepare()
     meshes[t] = std::move(tool.Mesh);
     const SceneDevice& described = this->Described().devices[this->Described().tools[t].device];
     ServoTool hand;
-    hand.device = this->Open(described);
+    hand.device = this->Open(this->Described().tools[t], meshes[t].get());
     hand.mapping = described.mapping;
     this->Silent.push_back(
       described.type != DeviceType::Mouse && hand.device->info().largestForce == 0);
@@ -202,12 +236,14 @@ void HapticTouch::Prepare()
     if (t == 0 && !this->RecordFile.empty())
     {
       this->Recorder = std::make_shared<RecordingDevice>(hand.device,
-        static_cast<std::size_t>(RecordedSeconds * this->Described().servo.rate));
+        static_cast<std::size_t>(RecordedSeconds * this->Described().servo.rate),
+        this->Described().servo.rate);
       hand.device = this->Recorder;
     }
     hands.push_back(std::move(hand));
   }
   this->Session = std::make_unique<TouchSession>(this->Described(), this->Loaded.Bodies, meshes);
+  this->Cautions = warningsOf(this->Described(), this->Loaded.Bodies);
   this->None.setZero(3, this->Loaded.Bodies[0].mesh->vertexCount());
   this->Loop =
     std::make_unique<ServoLoop>(this->Session->model(), hands, this->Described().servo);
@@ -246,6 +282,24 @@ void HapticTouch::WriteRecording()
   }
 }
 
+std::vector<std::string> HapticTouch::Warnings() const
+{
+  if (!this->Session)
+  {
+    return {};
+  }
+  std::vector<std::string> warnings = this->Cautions;
+  if (this->Recorder && !this->IsRunning() && this->Recorder->leftOut() > 0)
+  {
+    char line[128];
+    std::snprintf(line, sizeof line,
+      "the recording holds the first %g s: the %g s after them are left out", RecordedSeconds,
+      static_cast<double>(this->Recorder->leftOut()) / this->Described().servo.rate);
+    warnings.emplace_back(line);
+  }
+  return warnings;
+}
+
 bool HapticTouch::Update()
 {
   if (!this->Loop)
@@ -265,6 +319,11 @@ void HapticTouch::ComputeFrame(const std::vector<std::vector<int>>& visible)
 const Eigen::Matrix3Xd& HapticTouch::Displacement(int body) const
 {
   return this->Session->deforms() ? this->Session->displacement(body) : this->None;
+}
+
+const Eigen::Matrix3Xd& HapticTouch::ProbeDisplacements() const
+{
+  return this->Session ? this->Session->probeDisplacements() : this->NoProbes;
 }
 
 MouseDevice& HapticTouch::Mouse()

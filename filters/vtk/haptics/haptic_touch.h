@@ -30,6 +30,7 @@ public:
   void SetModel(vtkPolyData* model);
   void LoadScene(const std::string& fileName);
   std::string EvaluationPlan();
+  /// The first tool; the others stay.
   /// @param radius  of a ball; 0 for a point.
   void SetTool(double radius);
   void SetDevice(const SceneDevice& device);
@@ -53,6 +54,8 @@ public:
   void RunHeadless(double seconds);
   /// @throws std::runtime_error if the file cannot be written.
   void WriteRecording();
+  /// What to know before relying on the forces, a sentence each; after Prepare.
+  std::vector<std::string> Warnings() const;
 
   /// Takes the newest snapshot. @return whether there is one.
   bool Update();
@@ -70,6 +73,10 @@ public:
   const ToolContact& Contact(int tool) const;
   Wrench Rendered(int tool) const;
   std::string Fault(int tool) const;
+  /// A line for each tool and fault that there was: how often, and when first.
+  std::string FaultTable() const;
+  /// m, of the scene's probes, 3 by their number; zero before the first frame.
+  const Eigen::Matrix3Xd& ProbeDisplacements() const;
   std::string Status() const;
   double MaskRadius() const;
   /// Of the vertices of the first body, N/m; NaN where there is none.
@@ -91,7 +98,8 @@ public:
 
 private:
   void Change();
-  std::shared_ptr<HapticDevice> Open(const SceneDevice& device);
+  std::shared_ptr<HapticDevice> Open(const SceneTool& tool, const SurfaceMesh* mesh);
+  std::shared_ptr<HapticDevice> OpenMouse();
   std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
   double MeanEdge() const;
 
@@ -102,6 +110,8 @@ private:
   std::string RecordFile;
   std::vector<ToolLook> Looks;
   std::vector<bool> Silent; ///< whether a tool's device can render no force
+  std::vector<Eigen::Vector3d> Pressed; ///< where simulated hands do
+  std::vector<std::string> Cautions;    ///< of the session as it began
   std::shared_ptr<MouseDevice> Pointer;
   ToolPose PointerPose;
   std::shared_ptr<ScriptedDevice> FirstScript;
@@ -110,7 +120,7 @@ private:
   std::unique_ptr<ServoLoop> Loop;
   const ServoSnapshot* Latest = nullptr; ///< the loop's
   ServoSnapshot Nothing;
-  Eigen::Matrix3Xd None;
+  Eigen::Matrix3Xd None, NoProbes;
 };
 } // namespace palpate
 

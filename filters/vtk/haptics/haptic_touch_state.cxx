@@ -53,6 +53,28 @@ std::string HapticTouch::Fault(int tool) const
     : "";
 }
 
+std::string HapticTouch::FaultTable() const
+{
+  std::string table;
+  const auto& tools = this->Snapshot().tools;
+  for (std::size_t t = 0; t < tools.size(); ++t)
+  {
+    const SafetyReport& report = tools[t].safety;
+    for (int fault = 1; fault < kFaultCount; ++fault)
+    {
+      if (report.faults[fault] > 0)
+      {
+        char line[160];
+        std::snprintf(line, sizeof line, "tool %zu   fault: %s, in %lld ticks, first at %.6g s\n", t,
+          palpate::describe(static_cast<palpate::Fault>(fault)),
+          static_cast<long long>(report.faults[fault]), report.firstFaults[fault]);
+        table += line;
+      }
+    }
+  }
+  return table;
+}
+
 std::string HapticTouch::Status() const
 {
   if (this->Snapshot().contact.tools.empty())

@@ -4,14 +4,15 @@
 #include "loaded_scene.h"
 
 #include "conversion.h"
+#include "haptics/glove_device.h"
 #include "haptics/hid_bus.h"
-#include "haptics/scripted_device.h"
-#include "haptics/simulated_device.h"
 #include "model_arrays.h"
 #include "read_surface.h"
 
 #include "vtkPolyData.h"
 
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
@@ -20,22 +21,13 @@ namespace palpate
 namespace
 {
 constexpr double DefaultFriction = 0.3, DefaultMaskEdges = 2;
+constexpr double RateError = 1e-6; ///< relative, of rounding
 
-std::shared_ptr<HapticDevice> openHid(const SceneDevice& device)
+std::string number(double value)
 {
-  if (!device.description.empty())
-  {
-    return openHidDevice(readHidDescription(device.description));
-  }
-  for (const HidRecord& record : listHidDevices())
-  {
-    const bool wanted = record.vendor == device.vendor && record.product == device.product;
-    if (wanted || (device.vendor == 0 && kindOf(record) != HidKind::Unknown))
-    {
-      return openHidDevice(record);
-    }
-  }
-  throw std::runtime_error("the HID device is not there: `palpate devices` lists those that are");
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 /// A model of a scene, whose sentences begin with its file.
@@ -102,22 +94,55 @@ LoadedTool loadTool(const SceneTool& tool, double reach)
     return { lookOf(tool, nullptr, reach), nullptr };
   }
   const vtkSmartPointer<vtkPolyData> surface = readSurface(tool.file);
-  return { lookOf(tool, surface, reach), convert::soundMeshOf(surface) };
+  try
+  {
+    return { lookOf(tool, surface, reach), convert::soundMeshOf(surface) };
+  }
+  catch (const std::exception& failure)
+  {
+    throw std::runtime_error("the tool " + tool.file + ": " + failure.what());
+  }
 }
 
-std::shared_ptr<HapticDevice> openDevice(const SceneDevice& device)
+std::shared_ptr<ScriptedDevice> openScript(
+  const SceneDevice& device, const SceneTool& tool, double rate)
 {
-  switch (device.type)
+  DeviceRecording recording = readDeviceRecording(device.file);
+  const std::string name = "the recording '" + device.file + "'";
+  if (recording.rate > 0 && std::abs(recording.rate - rate) > RateError * rate)
   {
-    case DeviceType::Scripted:
-      return std::make_shared<ScriptedDevice>(readDeviceRecording(device.file));
-    case DeviceType::Simulated:
-      return std::make_shared<SimulatedDevice>(SimulatedDeviceSettings{});
-    case DeviceType::Hid:
-      return openHid(device);
-    case DeviceType::Mouse:
-      break;
+    throw std::invalid_argument(name + " has " + number(recording.rate) +
+      " moments a second, but the servo loop runs at " + number(rate) +
+      " Hz, a moment a tick: choose the recording's rate");
   }
-  throw std::logic_error("the mouse is not opened as a device");
+  if (tool.shape == ToolShape::Hand)
+  {
+    try
+    {
+      requireHandJoints(recording);
+    }
+    catch (const std::invalid_argument& failure)
+    {
+      throw std::invalid_argument(name + " moves no hand: " + failure.what());
+    }
+  }
+  return std::make_shared<ScriptedDevice>(std::move(recording));
+}
+
+std::shared_ptr<HapticDevice> openHid(const SceneDevice& device)
+{
+  if (!device.description.empty())
+  {
+    return openHidDevice(readHidDescription(device.description));
+  }
+  for (const HidRecord& record : listHidDevices())
+  {
+    const bool wanted = record.vendor == device.vendor && record.product == device.product;
+    if (wanted || (device.vendor == 0 && kindOf(record) != HidKind::Unknown))
+    {
+      return openHidDevice(record);
+    }
+  }
+  throw std::runtime_error("the HID device is not there: `palpate devices` lists those that are");
 }
 } // namespace palpate

@@ -4,6 +4,7 @@
 #ifndef palpate_loaded_scene_h
 #define palpate_loaded_scene_h
 
+#include "haptics/scripted_device.h"
 #include "haptics/touch_session.h"
 #include "tool_look.h"
 
@@ -38,8 +39,11 @@ struct LoadedTool
 };
 LoadedTool loadTool(const SceneTool& tool, double reach);
 
-/// Opens a recording, a simulated hand or a HID device; not the mouse, which is the window's.
-std::shared_ptr<HapticDevice> openDevice(const SceneDevice& device);
+/// A recording to replay with a tool, a moment a tick: one that states another rate is refused, as is one
+/// without a glove's joints if the tool is a hand.
+std::shared_ptr<ScriptedDevice> openScript(
+  const SceneDevice& device, const SceneTool& tool, double rate);
+std::shared_ptr<HapticDevice> openHid(const SceneDevice& device);
 } // namespace palpate
 
 #endif

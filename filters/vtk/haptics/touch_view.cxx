@@ -308,6 +308,14 @@ void TouchView::Show(const ServoSnapshot& snapshot)
 void TouchView::SetStatus(const std::string& text)
 {
   this->Status->SetInput(text.c_str());
+  if (this->Renderer)
+  {
+    // At the window's lower edge, where a gradient has the first colour.
+    const double* ground = this->Renderer->GetBackground();
+    const bool isDark = 0.299 * ground[0] + 0.587 * ground[1] + 0.114 * ground[2] < 0.5;
+    const double shade = isDark ? 0.92 : 0.1;
+    this->Status->GetTextProperty()->SetColor(shade, shade, shade);
+  }
 }
 
 void TouchView::ColourBy(int body, const Eigen::VectorXd& values)

@@ -180,11 +180,19 @@ double vtkInteractorStyleHaptic::GetRigidStiffness()
   return this->Internals->Session.Scene().effects.stiffnessLimit;
 }
 
-void vtkInteractorStyleHaptic::SetDeformation(int mode)
+bool vtkInteractorStyleHaptic::SetDeformation(int mode)
 {
-  this->Internals->Session.SetDeformation(static_cast<palpate::DeformationRows>(
-    std::clamp(mode, static_cast<int>(DEFORM_ALL), static_cast<int>(DEFORM_NONE))));
-  this->Modified();
+  return this->Try(
+    [&]
+    {
+      if (mode < DEFORM_ALL || mode > DEFORM_NONE)
+      {
+        throw std::invalid_argument(
+          "the deformation must be from 0 (all) to 3 (none), not " + std::to_string(mode));
+      }
+      this->Internals->Session.SetDeformation(static_cast<palpate::DeformationRows>(mode));
+      this->Modified();
+    });
 }
 
 int vtkInteractorStyleHaptic::GetDeformation()
@@ -227,6 +235,11 @@ void vtkInteractorStyleHaptic::Prepare()
 {
   Touch& touch = *this->Internals;
   touch.Session.Prepare();
+  if (!touch.Shown)
+  {
+    touch.Warnings.clear(); // they were of another model or tool
+  }
+  this->Warn();
   if (touch.Shown)
   {
     return;
@@ -283,6 +296,7 @@ bool vtkInteractorStyleHaptic::Stop()
     {
       this->Internals->Session.Stop();
       this->Internals->Session.WriteRecording();
+      this->Warn();
     });
 }
 

@@ -69,7 +69,8 @@ public:
 
   ///@{
   /**
-   * The first tool: a point (default), or a ball of a radius in the unit of the points. Stops.
+   * The first tool: a point (default), or a ball of a radius in the unit of the points. A scene's further
+   * tools stay; points and tools with a shape do not go together. Stops.
    */
   bool SetToolToPoint();
   bool SetToolToSphere(double radius);
@@ -77,8 +78,9 @@ public:
 
   ///@{
   /**
-   * What moves the first tool: the mouse (default); a recording; a simulated mass in a resting hand; a HID
-   * device by its numbers, or the first there is for zeros. Stops.
+   * What moves the first tool: the mouse (default); a recording, a moment a tick, refused if it states
+   * another rate than the servo loop's; a simulated hand that presses and lifts every two seconds, where the
+   * model is farthest from its support; a HID device by its numbers, or the first there is for zeros. Stops.
    */
   bool SetDeviceToMouse();
   bool SetDeviceToScript(const char* fileName);
@@ -122,7 +124,7 @@ public:
   ///@{
   /**
    * Whose displacements a frame computes: all (default), those of vertices that face the camera, those
-   * that bear a force, none.
+   * that bear a force, none. Stops.
    */
   enum DeformationModes
   {
@@ -131,7 +133,7 @@ public:
     DEFORM_CONTACT = 2,
     DEFORM_NONE = 3
   };
-  void SetDeformation(int mode);
+  bool SetDeformation(int mode);
   int GetDeformation();
   ///@}
 
@@ -161,8 +163,8 @@ public:
 
   ///@{
   /**
-   * A file that Stop writes the first device's motion to, whole or not at all; none by default. For
-   * SetDeviceToScript. Stops.
+   * A file that Stop writes the first device's motion to with its rate, whole or not at all; none by
+   * default. It holds 120 s: what comes later is left out, and Stop warns of it. For SetDeviceToScript. Stops.
    */
   bool SetRecordFileName(const char* fileName);
   ///@}
@@ -212,6 +214,28 @@ public:
   /** The last fault, in words; empty without one. */
   std::string GetFault(int tool = 0);
   ///@}
+
+  ///@{
+  /**
+   * A scene's probes in its order, and their displacements at the last Update, m.
+   */
+  int GetNumberOfProbes();
+  std::string GetProbeName(int probe);
+  void GetProbeDisplacement(int probe, double displacement[3]);
+  ///@}
+
+  /**
+   * A line for each tool and kind of fault up to the last Update: how many ticks it lasted, and its first
+   * tick. Empty without any.
+   */
+  std::string GetFaultTable();
+
+  /**
+   * What to know before relying on the forces, a line each: Green's functions that are missing, tools that
+   * the mesh is too coarse for, a recording that was too long. A warning tells each of them once. Empty
+   * before the first start.
+   */
+  std::string GetWarnings();
 
   ///@{
   /**
@@ -274,6 +298,7 @@ private:
   template <class Action>
   bool Try(const Action& action);
   void Prepare();
+  void Warn();
   void ShowIn(vtkRenderer* renderer);
   void Announce();
   void Drag();
