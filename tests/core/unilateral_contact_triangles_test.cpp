@@ -109,6 +109,33 @@ TEST(UnilateralContactTriangles, NoPointOfTheSurfaceEndsInASmallBall) {
   }
 }
 
+/// Of a tool that rests only the surface moves: what it brings near is found as well.
+TEST(UnilateralContactTriangles, ABallThatRestsFindsTheEquilibriumOfOneThatCame) {
+  const TouchedBody& body = coarseSphere();
+  const MeshShape surface(body.mesh);
+  for (double radius : {0.2, 0.1, 0.03})
+    for (double angle : {0.0, 0.2}) {
+      const auto shape = std::make_shared<SphereShape>(radius);
+      const Eigen::Vector3d way =
+          Eigen::Vector3d(std::sin(angle), 0.1, std::cos(angle)).normalized();
+      const double depth = 0.8 * radius;
+      const RigidPose pose = at(outAlong(way, surface, radius - depth));
+      UnilateralContact contact(body.greens, body.mesh, {{shape, 0}}, {});
+      for (int tick = 0; tick <= 400; ++tick) {
+        const double above = std::max(0.0, 1 - tick / 300.0) * depth;
+        const RigidPose coming = at(pose.position + above * way);
+        contact.step(&coming);
+      }
+      const Eigen::Vector3d came = contact.force(0);
+      contact.reset();
+      for (int tick = 0; tick < 100; ++tick) contact.step(&pose);
+      // Not more than where it came, of triangles that the dent has stretched beyond the limit.
+      EXPECT_LE(deepest(contact, body, *shape, pose), 0.02 * depth) << radius << ' ' << angle;
+      // Points inside triangles settle to 1e-4 of their triangles.
+      EXPECT_LE((contact.force(0) - came).norm(), 2e-3 * came.norm()) << radius << ' ' << angle;
+    }
+}
+
 /// Within a triangle a smooth point pushes along the triangle's normal as it tilts, so that nothing
 /// of the mesh is felt.
 TEST(UnilateralContactTriangles, ASmoothBallFeelsTheFaceAndNotItsPoints) {

@@ -113,7 +113,7 @@ void UnilateralContact::reset() noexcept {
   for (std::vector<int>& parts : partOf_) std::fill(parts.begin(), parts.end(), -1);
   std::fill(isHeldVertex_.begin(), isHeldVertex_.end(), false);
   std::fill(holders_.begin(), holders_.end(), 0);
-  penetration_ = 0;
+  penetration_ = yielded_ = 0;
 }
 
 Proximity UnilateralContact::proximity(int obstacle, const Eigen::Vector3d& place) const noexcept {
@@ -203,10 +203,11 @@ void UnilateralContact::linearise() noexcept {
 
 /// Points that do not stick take their place on the obstacle with them.
 void UnilateralContact::settle() noexcept {
-  penetration_ = 0;
+  penetration_ = yielded_ = 0;
   for (int contact = 0; contact < solver_.count(); ++contact) {
     ContactAnchor& anchor = anchors_[contact];
     const Eigen::Vector3d place = placeOf(contact);
+    yielded_ = std::max(yielded_, (place - anchor.placeBefore).norm());
     anchor.gap = proximity(anchor.obstacle, place).distance;
     penetration_ = std::max(penetration_, -anchor.gap);
     if (solver_.status(contact) != ContactStatus::Stick)
@@ -222,6 +223,8 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
   gatherLoads();
   advance(poses);
   solver_.updateDisplacements();
+  for (int contact = 0; contact < solver_.count(); ++contact)
+    anchors_[contact].placeBefore = placeOf(contact);
   ContactCertificate certificate;
   for (int k = 0; k < settings_.linearisations; ++k) {
     if (solver_.compliance().bodyCount() > 1) moveSites();

@@ -26,11 +26,12 @@ namespace palpate {
 /// sharp edges the triangle's normal is that of the contact.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
-/// conservative advancement: a vertex is looked at again only when its obstacle can have come near
-/// and, of those that the obstacle has pressed away from itself, when it has come half as far,
-/// because they move too), linearises their gaps at the deformed place of
-/// the last step, and solves for the forces from the last ones on. Steps are quasi-static; sticking
-/// vertices keep the place on the obstacle where they stuck, and move with it.
+/// conservative advancement: a vertex is looked at again only when an obstacle or the surface has
+/// moved so far that they can be near each other: half as far, of those that are pressed away,
+/// because both may move; the surface moves most where it is watched), linearises their gaps at the
+/// deformed place of the last step, and solves for the forces from the last ones on. Steps are
+/// quasi-static; sticking vertices keep the place on the obstacle where they stuck, and move with
+/// it.
 ///
 /// An obstacle can hold what it touches (setHeld): its contacts then neither part nor slip, points
 /// inside triangles stay where they are, and it pulls. What comes to bear a force meanwhile is held
@@ -172,7 +173,8 @@ class UnilateralContact {
   std::vector<int> holderOf_;             ///< and the obstacle that holds them
   std::vector<std::vector<int>> partOf_;  ///< a tool and vertex: the part that it is watched with
   Eigen::Vector3d centre_;                ///< of a ball that holds the surface
-  double travelled_ = 0;  ///< m, no point of an obstacle near the surface has moved farther
+  double travelled_ = 0;  ///< m, no point of the surface, or an obstacle near it, moved farther
+  double yielded_ = 0;    ///< m, the way of the watched points in the last step's solves
   double radius_ = 0, margin_ = 0, stiffnessScale_ = 1, penetration_ = 0;
   long transitions_ = 0;
   bool overflowed_ = false;

@@ -32,6 +32,7 @@ struct ContactAnchor {
   double gap;
   Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
   bool isHeld = false;
+  Eigen::Vector3d placeBefore = Eigen::Vector3d::Zero();  ///< the step's solves, in the surface's
 };
 
 }  // namespace palpate

@@ -20,10 +20,11 @@ double UnilateralContact::wayOf(int obstacle, const RigidPose& pose) const noexc
          lever * moving.pose.orientation.angularDistance(pose.orientation);
 }
 
-/// The poses, and which vertices they may have brought near. One obstacle's way counts for all: it
-/// may press the surface into another.
+/// The poses, and which vertices they may have brought near, or the last solve. One obstacle's way
+/// counts for all: it may press the surface into another. Of obstacles and the surface the farther
+/// way counts; where both move, wayLeft allows for it.
 void UnilateralContact::advance(const RigidPose* poses) noexcept {
-  double way = 0;
+  double way = yielded_;
   for (int obstacle = 0; obstacle < obstacleCount(); ++obstacle)
     way = std::max(way, wayOf(obstacle, poses[obstacle]));
   travelled_ += way;
@@ -48,9 +49,9 @@ void UnilateralContact::advance(const RigidPose* poses) noexcept {
   }
 }
 
-/// How far an obstacle may move before a point that it has pressed this far away is looked at
-/// again, to be watched from a distance on. Its forces can let go of it at any time, hence no
-/// farther than the margin.
+/// How far obstacles and the surface may each move before a point that is pressed this far away is
+/// looked at again, to be watched from a distance on. The forces can let go of it at any time,
+/// hence no farther than the margin.
 double UnilateralContact::wayLeft(double gap, double nearness) const noexcept {
   return std::min((gap - nearness / 2) / 2, margin_);
 }
