@@ -7,6 +7,9 @@
 
 #include <cmath>
 #include <random>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "support/allocation_count.h"
 #include "support/refusals.h"
@@ -340,13 +343,44 @@ TEST_F(AHandThatFeels, ManyLateSolvesInARowAreAFaultAndFewAreNot) {
   EXPECT_EQ(faults(Fault::LateSolves), 0);
   request_.late = false;
   tick();
-  request_.certificate.budgetCut = true;
-  for (int i = 0; i < 19; ++i) EXPECT_EQ(tick().force, request_.wanted.force);
-  for (int i = 0; i < 10; ++i) tick();
-  EXPECT_EQ(tick().force, Vector3d::Zero());
-  EXPECT_EQ(safety_.report().fault, Fault::LateSolves);
-  request_.certificate.budgetCut = false;
-  expectToReturnByARamp();
+}
+
+TEST_F(AHandThatFeels, EachReasonToDoubtSolvesHasANameOfItsOwn) {
+  const auto only = [](bool late, bool cut, bool heldBack) {
+    ForceSafety::Request request;
+    request.late = late;
+    request.certificate.budgetCut = cut;
+    request.certificate.heldBack = heldBack;
+    return request;
+  };
+  const std::pair<Fault, ForceSafety::Request> reasons[] = {
+      {Fault::LateSolves, only(true, false, false)},
+      {Fault::RoughSolves, only(false, true, false)},
+      {Fault::HeldBack, only(false, false, true)},
+      {Fault::LateSolves, only(true, true, true)}};
+  std::set<std::string> names;
+  tickUntilItRenders();
+  for (const auto& [fault, reason] : reasons) {
+    const Wrench wanted = request_.wanted;
+    request_ = reason;
+    request_.wanted = wanted;
+    for (int i = 0; i < 19; ++i) EXPECT_EQ(tick().force, request_.wanted.force);
+    for (int i = 0; i < 10; ++i) tick();
+    EXPECT_EQ(tick().force, Vector3d::Zero());
+    EXPECT_EQ(safety_.report().fault, fault);
+    names.insert(describe(fault));
+    request_ = {};
+    request_.wanted = wanted;
+    expectToReturnByARamp();
+  }
+  EXPECT_EQ(names.size(), 3u);
+}
+
+TEST_F(AHandThatFeels, AForceOfTooFewContactsIsRenderedAsItIs) {
+  tickUntilItRenders();
+  request_.certificate.truncated = true;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().force, request_.wanted.force);
+  EXPECT_EQ(safety_.report().fault, Fault::None);
 }
 
 TEST_F(AHandThatFeels, OneFaultAfterAnotherNeverRaisesAForceThatFades) {

@@ -11,8 +11,11 @@ struct ContactCertificate {
   double coneViolation = 0;  ///< largest excess over the friction cone over the largest force
   int iterations = 0;
   int contactCount = 0;    ///< nodes, or points, that bear a force
-  bool budgetCut = false;  ///< whether the budget ended the solve before its tolerance was met
-  bool failed = false;     ///< no usable force
+  bool budgetCut = false;  ///< whether iterations ended the solve before its tolerance was met
+  bool heldBack = false;   ///< whether a point that slides has not gone as far as it should
+  /// Whether contacts were left out for want of capacity: too small a force.
+  bool truncated = false;
+  bool failed = false;  ///< no usable force
   /// Whether it failed where Green's functions are needed that were not computed.
   bool uncomputed = false;
 };

@@ -68,6 +68,10 @@ const char* describe(Fault fault) noexcept {
       return "no usable force from the model";
     case Fault::LateSolves:
       return "forces computed too late";
+    case Fault::RoughSolves:
+      return "contact forces that did not settle";
+    case Fault::HeldBack:
+      return "a contact point that could not follow its tool";
     case Fault::Uncomputed:
       return "touched where the model's Green's functions were not computed";
   }
@@ -148,12 +152,14 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
 Fault ForceSafety::judgeSolve(const Request& request) noexcept {
   const bool failed = request.certificate.failed || !isFinite(request.wanted);
   failed_ = failed ? std::min(failed_ + 1, settings_.failedSolves) : 0;
-  const bool late = request.late || request.certificate.budgetCut;
-  late_ = late ? std::min(late_ + 1, settings_.lateSolves) : 0;
+  const Fault doubt = request.late                    ? Fault::LateSolves
+                      : request.certificate.budgetCut ? Fault::RoughSolves
+                      : request.certificate.heldBack  ? Fault::HeldBack
+                                                      : Fault::None;
+  late_ = doubt != Fault::None ? std::min(late_ + 1, settings_.lateSolves) : 0;
   if (request.certificate.uncomputed) return Fault::Uncomputed;
   if (failed_ >= settings_.failedSolves) return Fault::FailedSolves;
-  if (late_ >= settings_.lateSolves) return Fault::LateSolves;
-  return Fault::None;
+  return late_ >= settings_.lateSolves ? doubt : Fault::None;
 }
 
 void ForceSafety::delivered(bool arrived) noexcept {

@@ -28,7 +28,7 @@ struct SafetySettings {
   int toleratedSilence = 1;  ///< ticks in a row without a report in which the force stays
   int largestSilence = 3;    ///< such ticks after which it is zero; a fault
   int failedSolves = 3;      ///< in a row are a fault; the force fades from the first on
-  int lateSolves = 20;       ///< over the budget, in a row, are a fault
+  int lateSolves = 20;       ///< late, rough or held back, in a row, are a fault
 };
 
 enum class Fault : std::uint8_t {
@@ -39,10 +39,12 @@ enum class Fault : std::uint8_t {
   Unplugged,     ///< the device is not there
   Undelivered,   ///< the device takes no wrench
   FailedSolves,  ///< or forces that are not finite
-  LateSolves,
-  Uncomputed,  ///< the model has no Green's functions where it is touched
+  LateSolves,    ///< over the budget of time
+  RoughSolves,   ///< ended by their iterations before their tolerance was met
+  HeldBack,      ///< points that have not slid as far as they should
+  Uncomputed,    ///< the model has no Green's functions where it is touched
 };
-inline constexpr int kFaultCount = 9;
+inline constexpr int kFaultCount = 11;
 
 /// In words, e.g. "no report from the device".
 const char* describe(Fault fault) noexcept;
