@@ -19,6 +19,7 @@ namespace {
 constexpr double kFarthest = 1e6;
 constexpr double kLargestFriction = 100;
 constexpr double kMostSeconds = 86400;
+constexpr double kMostContacts = 2000;
 constexpr double kMostFrames = 10000;
 
 void run(TouchOptions& options) {
@@ -59,8 +60,9 @@ void addLabOptions(CLI::App& command, TouchOptions& options) {
       command.add_flag("--lab", options.lab,
                        "Press a simulated device into the model instead, and find the stiffness it "
                        "can render, the spectral norm |K|, against rate and damping");
-  for (const char* other : {"--device", "--tool-radius", "--friction", "--rate", "--deformation",
-                            "--record", "--forces", "--seconds", "--headless", "--plan"})
+  for (const char* other :
+       {"--device", "--tool-radius", "--contacts", "--friction", "--rate", "--deformation",
+        "--record", "--forces", "--seconds", "--headless", "--plan"})
     lab->excludes(other);
   CLI::Option* at =
       command
@@ -118,6 +120,11 @@ void addContactOptions(CLI::App& command, TouchOptions& options) {
                          "0 for the stiffest free vertex");
   requireBetween(stiffness, 0, 1e15);
   ball->excludes(mask)->excludes(stiffness);
+  requireBetween(command.add_option("--contacts", options.contacts,
+                                    "Most contacts of a ball or another shape at a time, up to "
+                                    "2000; by default as many as the model has vertices, from 128 "
+                                    "to 500"),
+                 1, kMostContacts);
   command
       .add_option("--deformation", options.deformation,
                   "Whose displacements are computed: all, visible, contact or none")

@@ -96,6 +96,9 @@ void requireSensible(const TouchOptions& options) {
   if (isOfPoint && scene && !scene->isOfPoints())
     throw std::invalid_argument(
         "--radius and --rigid-stiffness are of points, but the scene's tools have a shape");
+  const bool isOfShapes = options.toolRadius > 0 || (scene && !scene->isOfPoints());
+  if (options.contacts != 0 && !isOfShapes)
+    throw std::invalid_argument("--contacts is of tools with a shape: add --tool-radius");
   requireDistinctFiles(options, scene);
 }
 

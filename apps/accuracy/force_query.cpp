@@ -49,11 +49,12 @@ class PreparedPress final : public PreparedQuery {
     contact_.reset();
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     for (int step = 0; step < kMostSteps; ++step) {
-      if (contact_.step(&pose).failed) throw std::runtime_error("a contact could not be solved");
+      const ContactCertificate certificate = contact_.step(&pose);
+      if (certificate.failed) throw std::runtime_error("a contact could not be solved");
+      if (certificate.truncated)
+        throw std::runtime_error("the ball touches more than the query has room for");
       const Eigen::Vector3d before = force;
       force = contact_.force(0);
-      if (contact_.overflowed())
-        throw std::runtime_error("the ball touches more than the query has room for");
       if (step > 0 && (force - before).norm() <= kSettled * force.norm()) break;
     }
     return force;

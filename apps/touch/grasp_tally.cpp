@@ -34,6 +34,7 @@ int largest(const std::vector<int>& numbers) {
 void GraspTally::addStep(const ContactCertificate& certificate, double seconds) {
   residual_ = std::max(residual_, certificate.residual);
   cut_ += certificate.budgetCut;
+  truncated_ += certificate.truncated;
   contactSeconds_ += seconds;
 }
 
@@ -68,7 +69,9 @@ void GraspTally::print(const ToolTouch& touch, int nodes, double seconds,
               median(changed_), largest(changed_), kMany, static_cast<int>(many));
   std::printf("frames                %d, a step of %.0f ms each, %.1f a second, contact %.1f ms\n",
               frames_, 1e3 * frameSeconds, frames_ / seconds, 1e3 * contactSeconds_ / frames_);
-  std::printf("worst residual        %.2g, %d ticks over budget\n", residual_, cut_);
+  std::printf(
+      "worst residual        %.2g, %d ticks that did not settle, %d with contacts left out\n",
+      residual_, cut_, truncated_);
   for (std::size_t i = 0; i < largest_.size(); ++i) {
     const Eigen::Vector3d force = forceOf(touch, kHandFingers[i]);
     std::printf("%-8s force, N     %-8.3g (%.3g %.3g %.3g), at most %.3g\n", kHandFingers[i].name,

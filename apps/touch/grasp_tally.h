@@ -31,7 +31,7 @@ class GraspTally {
   std::vector<int> dof_, changed_;  ///< of frames that touch, or touched before
   std::array<double, std::size(kHandFingers)> largest_{};  ///< N, in a frame
   double contactSeconds_ = 0, residual_ = 0;
-  int frames_ = 0, cut_ = 0;
+  int frames_ = 0, cut_ = 0, truncated_ = 0;
 };
 
 }  // namespace palpate::app

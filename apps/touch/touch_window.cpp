@@ -86,6 +86,7 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
     require(style->SetModel(readSurface(options.model)), style);
   if (options.scene.empty() || options.deviceGiven) setDevice(style, options.device);
   if (options.toolRadius != 0) require(style->SetToolToSphere(options.toolRadius), style);
+  if (options.contacts != 0) require(style->SetContactCapacity(options.contacts), style);
   if (options.friction >= 0) require(style->SetFriction(options.friction), style);
   if (options.maskRadius >= 0) require(style->SetMaskRadius(options.maskRadius), style);
   if (options.stiffnessLimit >= 0) require(style->SetRigidStiffness(options.stiffnessLimit), style);
@@ -132,6 +133,10 @@ void printState(vtkInteractorStyleHaptic* style) {
   std::cout << style->GetFaultTable() << std::flush;
   std::printf("ticks    %lld, %lld left out\n", static_cast<long long>(style->GetNumberOfTicks()),
               static_cast<long long>(style->GetNumberOfMissedTicks()));
+  if (style->GetNumberOfTruncatedTicks() > 0)
+    std::printf(
+        "         %lld with contacts left out, whose force is too small: raise --contacts\n",
+        static_cast<long long>(style->GetNumberOfTruncatedTicks()));
   std::cout << style->GetTimingTable() << std::flush;
 }
 

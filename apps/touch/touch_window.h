@@ -16,6 +16,7 @@ struct TouchOptions {
   std::string device = "mouse";  ///< mouse, scripted:FILE, simulated, hid or hid:VVVV:PPPP
   bool deviceGiven = false;      ///< whether it replaces the scene's
   double toolRadius = 0;         ///< of a ball, 0 for a point
+  int contacts = 0;              ///< most at a time, 0 as it is
   double friction = -1, maskRadius = -1, stiffnessLimit = -1, rate = 0;  ///< negative: as it is
   std::string deformation;  ///< all, visible, contact, none; empty: as it is
   std::string record, forces, image;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/mesh_shape.h"
@@ -277,14 +278,91 @@ TEST(UnilateralContact, StepsDoNotAllocate) {
   EXPECT_GT(largest.minCoeff(), 0);  // all three have touched
 }
 
-TEST(UnilateralContact, ReportsWhatItHasNoRoomFor) {
+/// A ball comes down slowly and then goes aside. Points watched ahead of it count as room.
+TEST(UnilateralContact, WhereThereIsNoRoomForAllTheForceIsSmallerAndHasNoJumps) {
   const TouchedBody body = touchedSphere(3, true);
-  UnilateralContactSettings settings;
-  settings.capacity = 5;
-  UnilateralContact contact(body.greens, body.mesh, ball(0.5), settings);
-  const RigidPose pose = at(0, 0, 1.4);
-  EXPECT_TRUE(contact.step(&pose).budgetCut);
-  EXPECT_TRUE(contact.overflowed());
+  UnilateralContactSettings few;
+  few.capacity = 8;
+  UnilateralContact truncated(body.greens, body.mesh, ball(1), few);
+  UnilateralContact whole(body.greens, body.mesh, ball(1), {});
+  double before = 0, beforeWhole = 0, change = 0, changeWhole = 0;
+  int leftOut = 0;
+  for (int tick = 0; tick < 500; ++tick) {
+    const double aside = 1e-3 * std::max(0, tick - 250), depth = 8e-4 * std::min(tick, 250);
+    const RigidPose pose = at((2 - depth) * std::sin(aside), 0, (2 - depth) * std::cos(aside));
+    const ContactCertificate few = truncated.step(&pose), all = whole.step(&pose);
+    EXPECT_FALSE(few.budgetCut || few.failed || all.truncated) << tick;
+    EXPECT_LE(few.residual, 1e-9) << tick;
+    EXPECT_EQ(few.truncated && all.contactCount < 6, false) << tick << ": there was room";
+    EXPECT_TRUE(few.truncated || all.contactCount <= 9) << tick << ": they were left out";
+    leftOut += few.truncated;
+    const double force = truncated.force(0).norm(), forceWhole = whole.force(0).norm();
+    if (!few.truncated && tick > 0) {
+      EXPECT_NEAR(force, forceWhole, 1e-6) << tick;
+    }
+    change = std::max(change, std::abs(force - before));
+    changeWhole = std::max(changeWhole, std::abs(forceWhole - beforeWhole));
+    before = force;
+    beforeWhole = forceWhole;
+  }
+  EXPECT_GT(leftOut, 200);
+  EXPECT_GT(before, 0.5 * beforeWhole);
+  EXPECT_LE(before, beforeWhole);
+  EXPECT_LE(change, 3 * changeWhole);
+}
+
+/// Also where all come at once, in the order of their numbers.
+TEST(UnilateralContact, WhereThereIsNoRoomForAllTheDeepestAreTaken) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContactSettings few;
+  few.capacity = 12;
+  UnilateralContact contact(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0}}, few);
+  const RigidPose pose = plate(0.8);
+  EXPECT_TRUE(contact.step(&pose).truncated);
+  std::vector<double> heights(body.mesh->points().row(2).begin(), body.mesh->points().row(2).end());
+  std::sort(heights.rbegin(), heights.rend());
+  const double chatter = body.mesh->meanEdgeLength() / 16;
+  for (int i = 0; i < contact.watchedCount(); ++i)
+    EXPECT_GE(body.mesh->points()(2, contact.watched(i).vertex), heights[12] - chatter);
+}
+
+TEST(UnilateralContact, RoomIsChosenForAPlaneOverMostOfTheSurface) {
+  const TouchedBody body = touchedSphere(3, true);
+  UnilateralContact chosen(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}}, {});
+  UnilateralContactSettings enough;
+  enough.capacity = body.mesh->vertexCount();
+  UnilateralContact whole(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}}, enough);
+  ContactCertificate last;
+  for (int tick = 0; tick < 40; ++tick) {
+    const RigidPose pose = plate(1 - 0.02 * tick);
+    last = chosen.step(&pose);
+    whole.step(&pose);
+    EXPECT_FALSE(last.truncated || last.budgetCut || last.failed) << tick;
+    EXPECT_LE((chosen.force(0) - whole.force(0)).norm(), 1e-9 * whole.force(0).norm()) << tick;
+  }
+  EXPECT_GT(chosen.watchedCount(), 128);
+  EXPECT_LE(chosen.capacity(), UnilateralContactSettings::kMostChosen);
+  EXPECT_EQ(UnilateralContactSettings().capacityFor(42), UnilateralContactSettings::kLeastChosen);
+}
+
+TEST(UnilateralContact, FailsWhereTheSurfaceIsPressedWithoutGreensFunctions) {
+  const Shape shape = jitteredSphere(2, 0.2);
+  const auto mesh = shape.mesh();
+  const ElasticModel model(
+      mesh, Material(2.5, 0.3),
+      BoundaryConditions(fixedWhere(shape, [](const auto& x) { return x.z() < -0.6; })),
+      Eigen::VectorXi::Zero(mesh->triangleCount()));
+  BoundaryElementOptions options;
+  for (int v = 0; v < mesh->vertexCount(); ++v)
+    if (mesh->points()(2, v) > 0.7) options.columns.push_back(v);
+  UnilateralContact contact(computeGreens(model, options), mesh, ball(0.5), {});
+  RigidPose pose = at(0, 0, 1.45);
+  EXPECT_FALSE(contact.step(&pose).failed);
+  EXPECT_GT(contact.force(0).norm(), 0);
+  pose = at(1.4, 0, 0);
+  const ContactCertificate beside = contact.step(&pose);
+  EXPECT_TRUE(beside.failed);
+  EXPECT_FALSE(beside.truncated || beside.budgetCut);
 }
 
 TEST(UnilateralContact, RefusesWhatHasNoSense) {
@@ -303,7 +381,7 @@ TEST(UnilateralContact, RefusesWhatHasNoSense) {
   settings.margin = -1;
   EXPECT_THROW(make(ball(1), settings), std::invalid_argument);
   settings = {};
-  settings.capacity = 0;
+  settings.capacity = -1;
   EXPECT_THROW(make(ball(1), settings), std::invalid_argument);
 }
 

@@ -66,6 +66,8 @@ class Failures(Program):
         self.run_badly("--friction: must be a number from 0 to 100, not ", *touch, "--friction", "")
         for option in ("--radius", "--rigid-stiffness"):
             self.run_badly("excludes", *touch, option, 1, "--tool-radius", 0.01)
+        self.run_badly("--contacts: must be a number from 1 to 2000, not 0", *touch, "--contacts", 0)
+        self.run_badly("--contacts is of tools with a shape: add --tool-radius", *touch, "--contacts", 9)
         for option in ("--record", "--forces", "--image"):
             self.run_badly("the name of a file is missing", *touch, option, "")
         for value in (-1, 0, "nan", "inf"):

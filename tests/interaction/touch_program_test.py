@@ -38,6 +38,16 @@ class Headless(Program):
         self.assertIn("at 0.05 0.05 0.1", printed)
         self.assertIn(f"ticks    {round((REST + 0.4) * RATE)}, 0 left out", printed)
 
+    def test_contacts_that_there_is_no_room_for_are_told_and_the_rest_is_rendered(self):
+        ball = (*self.scripted(PRESS), "--seconds", REST + 0.4, "--tool-radius", 0.02)
+        plenty, few = self.run_well(*ball), self.run_well(*ball, "--contacts", 2)
+        self.assertNotIn("left out:", plenty)
+        self.assertIn("(contacts left out: more than there is room for)", few)
+        self.assertRegex(few, r"\d+ with contacts left out, whose force is too small: raise --contacts")
+        for printed in (plenty, few):
+            self.assertNotIn("too late", printed)
+            self.assertGreater(float(re.search(r"tool 0   force \S+ \S+ (\S+) N", printed)[1]), 0.1)
+
     def test_records_the_motion_that_it_replays(self):
         first, again = self.folder / "first.csv", self.folder / "again.csv"
         copy = self.folder / "copy.txt"
@@ -112,7 +122,9 @@ class Headless(Program):
         plan = self.run_well("touch", self.model, "--plan")
         for line in ("nodes under forces", "a tick, 1 k a second", "a frame", "memory"):
             self.assertIn(line, plan)
-        self.assertIn("watched", self.run_well("touch", self.model, "--plan", "--tool-radius", 0.02))
+        ball = ("touch", self.model, "--plan", "--tool-radius", 0.02)
+        self.assertIn("watched", self.run_well(*ball))
+        self.assertNotEqual(self.run_well(*ball), self.run_well(*ball, "--contacts", 9))
 
 
 class Lab(Program):

@@ -58,7 +58,7 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     : mesh_(std::move(mesh)),
       settings_(settings),
       solver_(bodiesOf(greens, obstacles), rigidStiffnessOf(*greens, *mesh_, settings),
-              settings.capacity, settings.solver) {
+              settings.capacityFor(mesh_->vertexCount()), settings.solver) {
   requireSurface(*greens, *mesh_);
   if (obstacles.empty()) throw std::invalid_argument("there is nothing to touch the surface with");
   if (!(settings.margin >= 0) || !std::isfinite(settings.margin) || settings.linearisations < 1)
@@ -82,12 +82,12 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
       partOf_.emplace_back(mesh_->vertexCount(), -1);
     obstacles_.push_back(std::move(moving));
   }
-  anchors_.resize(settings.capacity);
+  anchors_.resize(capacity());
   isHeldVertex_.assign(mesh_->vertexCount(), false);
   holders_.assign(mesh_->vertexCount(), 0);
   holderOf_.assign(mesh_->vertexCount(), -1);
-  loadedNodes_.resize(4 * std::size_t(settings.capacity));
-  tractions_.setZero(12 * Eigen::Index(settings.capacity));
+  loadedNodes_.resize(4 * std::size_t(capacity()));
+  tractions_.setZero(12 * Eigen::Index(capacity()));
   centre_ = (mesh_->points().rowwise().minCoeff() + mesh_->points().rowwise().maxCoeff()) / 2;
   radius_ = (mesh_->points().colwise() - centre_).colwise().norm().maxCoeff();
 }
@@ -114,6 +114,7 @@ void UnilateralContact::reset() noexcept {
   std::fill(isHeldVertex_.begin(), isHeldVertex_.end(), false);
   std::fill(holders_.begin(), holders_.end(), 0);
   penetration_ = yielded_ = 0;
+  isTruncated_ = false;
 }
 
 Proximity UnilateralContact::proximity(int obstacle, const Eigen::Vector3d& place) const noexcept {
@@ -197,12 +198,14 @@ void UnilateralContact::linearise() noexcept {
     const Eigen::Vector3d normal = normalOf(anchor, near);
     conditions.normal = normal;
     conditions.friction = moving.obstacle.friction;
-    conditions.offset = near.distance * normal + moved - normal.dot(moved) * normal - displacement;
+    conditions.offset =
+        (near.distance - anchor.slack) * normal + moved - normal.dot(moved) * normal - displacement;
   }
 }
 
 /// Points that do not stick take their place on the obstacle with them.
 void UnilateralContact::settle() noexcept {
+  constexpr double kept = 0.95;  // of a slack, a step
   penetration_ = yielded_ = 0;
   for (int contact = 0; contact < solver_.count(); ++contact) {
     ContactAnchor& anchor = anchors_[contact];
@@ -210,13 +213,15 @@ void UnilateralContact::settle() noexcept {
     yielded_ = std::max(yielded_, (place - anchor.placeBefore).norm());
     anchor.gap = proximity(anchor.obstacle, place).distance;
     penetration_ = std::max(penetration_, -anchor.gap);
+    anchor.slack = anchor.slack < -1e-6 * margin_ ? kept * anchor.slack : 0;
     if (solver_.status(contact) != ContactStatus::Stick)
       anchor.place = obstacles_[anchor.obstacle].pose.toOwn(place);
   }
 }
 
 ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
-  overflowed_ = false;
+  wasTruncated_ = isTruncated_;
+  isTruncated_ = isUnserved_ = false;
   hold();
   turnBodies(poses);
   dismiss();
@@ -236,7 +241,8 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
     certificate.iterations += before;
     certificate.budgetCut = certificate.budgetCut || cut;
   }
-  certificate.budgetCut = certificate.budgetCut || overflowed_;
+  certificate.truncated = isTruncated_;
+  certificate.failed = certificate.failed || isUnserved_;
   settle();
   return certificate;
 }

@@ -42,6 +42,11 @@ namespace palpate {
 /// Of two elastic bodies the vertices of the first meet the surface of the second: the finer mesh
 /// should be the first.
 ///
+/// Where there is no room for all, those stay that bear a force, then those that lie deepest, so
+/// that the force goes on without a jump; the certificate says truncated while any that was left
+/// out lies in an obstacle. What enters after that is let out little by little. It says failed if
+/// one lies there that has no Green's functions.
+///
 /// All memory is reserved by the constructor: nothing else allocates or throws.
 class UnilateralContact {
  public:
@@ -110,8 +115,6 @@ class UnilateralContact {
   double penetration() const { return penetration_; }
   /// Points that have entered or left the watch so far.
   long transitions() const { return transitions_; }
-  /// Whether a point was turned away for want of capacity in the last step.
-  bool overflowed() const { return overflowed_; }
 
  private:
   /// A point cannot be touched from where its own body is: of the cosine between the surface's
@@ -126,8 +129,12 @@ class UnilateralContact {
   void gatherLoads() noexcept;
   Eigen::Vector3d displacementOf(int vertex) const noexcept;
   bool isNearestPart(int obstacle, int vertex, double distance) noexcept;
-  void watch(int obstacle, int vertex, const Proximity& near) noexcept;
+  void watch(int obstacle, int vertex, const Proximity& near, double gap) noexcept;
+  bool makeRoom(double gap) noexcept;
+  double slackOf(double gap) const noexcept;
+  bool enter(const ContactSite& site, double gap) noexcept;
   void unwatch(int contact) noexcept;
+  void lookAgain(int contact) noexcept;
   void dismiss() noexcept;
 
   struct FacePoint;
@@ -177,7 +184,8 @@ class UnilateralContact {
   double yielded_ = 0;    ///< m, the way of the watched points in the last step's solves
   double radius_ = 0, margin_ = 0, stiffnessScale_ = 1, penetration_ = 0;
   long transitions_ = 0;
-  bool overflowed_ = false;
+  bool isTruncated_ = false, isUnserved_ = false;  ///< in this step
+  bool wasTruncated_ = false;                      ///< in the last one
 };
 
 }  // namespace palpate

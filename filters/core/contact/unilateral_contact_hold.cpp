@@ -88,12 +88,7 @@ void UnilateralContact::hold() noexcept {
   if (!isNew) return;
   for (int contact = solver_.count() - 1; contact >= 0; --contact) {
     if (!isDetermined(contact)) continue;
-    const ContactAnchor anchor = anchors_[contact];
-    MovingObstacle& moving = obstacles_[anchor.obstacle];
-    if (anchor.vertex < 0)
-      moving.lookInside[anchor.slot] = travelled_;
-    else
-      moving.lookAt[anchor.vertex] = travelled_;
+    lookAgain(contact);
     setHeldAt(contact, false);
     unwatch(contact);
   }

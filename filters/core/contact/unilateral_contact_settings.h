@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "contact/frictional_contact_solver.h"
@@ -25,7 +26,13 @@ struct Obstacle {
 };
 
 struct UnilateralContactSettings {
-  int capacity = 128;  ///< most points watched at a time, over all obstacles
+  /// Most points watched at a time, over all obstacles; 0 for as many as the surface has vertices,
+  /// but at least kLeastChosen and at most kMostChosen, whose matrices take 54 MB.
+  int capacity = 0;
+  static constexpr int kLeastChosen = 128, kMostChosen = 500;
+  int capacityFor(int vertices) const {
+    return capacity != 0 ? capacity : std::clamp(vertices, kLeastChosen, kMostChosen);
+  }
   /// m: a vertex is watched from this distance of its undeformed place to an obstacle on, and no
   /// longer beyond twice that; 0 for half the mean edge.
   double margin = 0;

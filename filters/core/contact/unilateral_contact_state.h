@@ -30,6 +30,7 @@ struct ContactAnchor {
   int slot;               ///< of that among the obstacle's large ones
   Eigen::Vector3d place;  ///< in the obstacle's frame, where it is or sticks
   double gap;
+  double slack = 0;  ///< m, <= 0: of the gap, what is not asked to be closed yet
   Eigen::Vector3d faceNormal = Eigen::Vector3d::Zero();  ///< of that triangle
   bool isHeld = false;
   Eigen::Vector3d placeBefore = Eigen::Vector3d::Zero();  ///< the step's solves, in the surface's

@@ -137,23 +137,26 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
   const FacePoint point = facePoint(obstacle, now, deepestIn(obstacle, now));
   if (point.near.distance > nearness)
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
-  else if (!point.isCorner() && point.near.normal.dot(point.faceNormal) <= kLargestCosine &&
-           isDeepestPart(obstacle, point) && watchInside(obstacle, slot, point))
-    lookAt = std::numeric_limits<double>::infinity();
-  else
+  else if (point.isCorner() || point.near.normal.dot(point.faceNormal) > kLargestCosine ||
+           !isDeepestPart(obstacle, point))
     lookAt = travelled_ + kSoon * margin_;
+  else if (watchInside(obstacle, slot, point))
+    lookAt = std::numeric_limits<double>::infinity();
 }
 
 bool UnilateralContact::watchInside(int obstacle, int slot, const FacePoint& point) noexcept {
   const int triangle = obstacles_[obstacle].large[slot];
-  if (!solver_.add(
-          ContactSite::inTriangle(0, mesh_->triangles().col(triangle), point.barycentric))) {
-    overflowed_ = true;
+  if (!enter(ContactSite::inTriangle(0, mesh_->triangles().col(triangle), point.barycentric),
+             point.near.distance))
     return false;
-  }
   const int contact = solver_.count() - 1;
-  anchors_[contact] = {
-      obstacle, -1, slot, Eigen::Vector3d::Constant(NAN), point.near.distance, point.faceNormal};
+  anchors_[contact] = {obstacle,
+                       -1,
+                       slot,
+                       Eigen::Vector3d::Constant(NAN),
+                       point.near.distance,
+                       slackOf(point.near.distance),
+                       point.faceNormal};
   ++transitions_;
   inheritSlip(contact, point.place);
   return true;

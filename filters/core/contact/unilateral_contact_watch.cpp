@@ -79,7 +79,7 @@ void UnilateralContact::look(int obstacle, int vertex) noexcept {
   else if (moving.body == 0 && now.distance > margin_)
     moving.lookAt[vertex] = travelled_ + wayLeft(now.distance, margin_);
   else if (isNearestPart(obstacle, vertex, near.distance))
-    watch(obstacle, vertex, near);
+    watch(obstacle, vertex, near, now.distance);
 }
 
 /// The tractions of all forces on the first body.
@@ -132,13 +132,49 @@ bool UnilateralContact::isNearestPart(int obstacle, int vertex, double distance)
   return true;
 }
 
-void UnilateralContact::watch(int obstacle, int vertex, const Proximity& near) noexcept {
-  if (!solver_.add(siteAt(obstacle, vertex, near))) {
-    overflowed_ = true;
-    return;
+/// Whether there is room for one more point, if need be that of an open one whose gap is wider, by
+/// more than chatter.
+bool UnilateralContact::makeRoom(double gap) noexcept {
+  if (solver_.count() < capacity()) return true;
+  int widest = -1;
+  double most = gap + margin_ / 8;
+  for (int contact = 0; contact < solver_.count(); ++contact) {
+    const ContactAnchor& anchor = anchors_[contact];
+    if (solver_.status(contact) != ContactStatus::Open || anchor.isHeld || anchor.gap <= most)
+      continue;
+    widest = contact;
+    most = anchor.gap;
   }
+  if (widest < 0) return false;
+  lookAgain(widest);
+  unwatch(widest);
+  return true;
+}
+
+/// Of a point that enters after it may have been left out, deep in an obstacle: that the force has
+/// no jump, it is let out by and by.
+double UnilateralContact::slackOf(double gap) const noexcept {
+  return wasTruncated_ ? std::min(gap, 0.0) : 0;
+}
+
+/// Hands a point to the solver, and takes note of one in an obstacle that it cannot take.
+bool UnilateralContact::enter(const ContactSite& site, double gap) noexcept {
+  if (!makeRoom(gap)) {
+    isTruncated_ = isTruncated_ || gap < 0;
+    return false;
+  }
+  if (solver_.add(site)) return true;
+  isUnserved_ = isUnserved_ || gap < 0;
+  return false;
+}
+
+/// @param near  of the undeformed vertex.
+/// @param gap   as it is deformed.
+void UnilateralContact::watch(int obstacle, int vertex, const Proximity& near,
+                              double gap) noexcept {
+  if (!enter(siteAt(obstacle, vertex, near), gap)) return;
   const int contact = solver_.count() - 1;
-  anchors_[contact] = {obstacle, vertex, -1, Eigen::Vector3d::Constant(NAN), near.distance};
+  anchors_[contact] = {obstacle, vertex, -1, Eigen::Vector3d::Constant(NAN), gap, slackOf(gap)};
   obstacles_[obstacle].isWatched[vertex] = true;
   const int tool = obstacles_[obstacle].obstacle.tool;
   if (tool >= 0) partOf_[tool][vertex] = obstacle;
@@ -154,6 +190,13 @@ void UnilateralContact::unwatch(int contact) noexcept {
   solver_.remove(contact);
   anchors_[contact] = anchors_[last];
   ++transitions_;
+}
+
+/// Lets a point that will be watched no more be looked at in the next step.
+void UnilateralContact::lookAgain(int contact) noexcept {
+  const ContactAnchor& anchor = anchors_[contact];
+  MovingObstacle& moving = obstacles_[anchor.obstacle];
+  (anchor.vertex < 0 ? moving.lookInside[anchor.slot] : moving.lookAt[anchor.vertex]) = travelled_;
 }
 
 /// Stops watching vertices that are well away, as they are and as they would be undeformed.

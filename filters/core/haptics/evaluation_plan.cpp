@@ -151,7 +151,7 @@ class Planner {
            bodies_[i].triangles * (9 * kNumber + TriangleTree::bytesPerTriangle()) +
                3 * kNumber * bodies_[i].nodes});
     }
-    const double most = std::min(scene_.solver.capacity, first_.nodes);
+    const double most = std::min(scene_.solver.capacityFor(first_.nodes), first_.nodes);
     plan_.watched = std::min(most, sum.watched + sum.inside);
     loadedOf_[0] = std::min(plan_.watched, sum.loaded);
     if (sum.inside > 0) planTriangles(sum);
@@ -197,7 +197,8 @@ class Planner {
   }
 
   void planSolverMemory(double parts) {
-    const double c = scene_.solver.capacity, stride = padded(3 * scene_.solver.capacity);
+    const int capacity = scene_.solver.capacityFor(first_.nodes);
+    const double c = capacity, stride = padded(3 * capacity);
     constexpr double perContact = 1000;  // sites, conditions, shares, borders and scratch
     plan_.memory.push_back({"matrices of the contact solver",
                             3 * kNumber * stride * 3 * c + 16 * kNumber * stride + perContact * c});

@@ -120,9 +120,9 @@ struct SceneEffects {
 ///   "stiffness_scale" (1), "elastic_elastic" (false)}.
 /// - "servo": {"rate" in Hz (1000), "budget" (0.7), "snapshot_ticks" (1), "passivity_damping" in N
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
-/// - "solver", of tools with a shape: {"capacity" (128), "margin" in m (half an edge),
-///   "linearisations" (1), "tolerance" (1e-9), "largest_iterations" (100), "largest_updates" (0)}:
-///   UnilateralContactSettings.
+/// - "solver", of tools with a shape: {"capacity" (as many contacts as the model has vertices, from
+///   128 to 500), "margin" in m (half an edge), "linearisations" (1), "tolerance" (1e-9),
+///   "largest_iterations" (100), "largest_updates" (0)}: UnilateralContactSettings.
 struct Scene {
   std::vector<SceneModel> models;
   std::vector<SceneTool> tools;

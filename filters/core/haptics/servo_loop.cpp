@@ -131,7 +131,7 @@ bool ServoLoop::reset() noexcept {
 bool ServoLoop::clearStatistics() noexcept {
   return commands_.post([](ServoLoop& loop) noexcept {
     ServoStatistics& s = loop.statistics_;
-    for (auto* count : {&s.ticks, &s.missedTicks, &s.overruns, &s.overBudget})
+    for (auto* count : {&s.ticks, &s.missedTicks, &s.overruns, &s.overBudget, &s.truncated})
       count->store(0, std::memory_order_relaxed);
     s.compute.clear();
     s.lateness.clear();
@@ -226,6 +226,7 @@ void ServoLoop::tick(std::int64_t periods, bool timed) noexcept {
 
   statistics_.compute.record(threadNanoseconds() - begin);
   increase<std::int64_t>(statistics_.overBudget, request.late);
+  increase<std::int64_t>(statistics_.truncated, request.certificate.truncated);
   increase<std::int64_t>(statistics_.ticks, 1);
 }
 

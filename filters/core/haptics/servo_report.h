@@ -35,6 +35,8 @@ struct ServoStatistics {
   std::atomic<std::int64_t> missedTicks{0};  ///< left out because their time had passed
   std::atomic<std::int64_t> overruns{0};     ///< ticks that ended after the next should have begun
   std::atomic<std::int64_t> overBudget{0};   ///< ticks that computed longer than their budget
+  std::atomic<std::int64_t> truncated{
+      0};  ///< ticks whose contacts were more than there is room for
   std::atomic<bool> realTimeGranted{false};  ///< whether the system gave what was asked for
   LatencyHistogram compute;                  ///< computing time of a tick
   LatencyHistogram lateness;                 ///< from a tick's deadline to its begin

@@ -124,6 +124,11 @@ vtkIdType vtkInteractorStyleHaptic::GetNumberOfMissedTicks()
   return this->Internals->Session.MissedTicks();
 }
 
+vtkIdType vtkInteractorStyleHaptic::GetNumberOfTruncatedTicks()
+{
+  return this->Internals->Session.TruncatedTicks();
+}
+
 double vtkInteractorStyleHaptic::GetTickTime(double share)
 {
   return this->Internals->Session.TickTime(share);

@@ -20,6 +20,7 @@ namespace
 constexpr double MouseSpeed = 3;           ///< diagonals of the body a second
 constexpr double RecordedSeconds = 120;    ///< at most
 constexpr double Unlimited = 1e9;          ///< a mouse hurts nobody
+constexpr int MostContacts = 2000;           ///< as in a scene
 constexpr double Day = 86400;              ///< s
 } // namespace
 
@@ -127,6 +128,17 @@ void HapticTouch::SetRate(double rate)
   }
   this->Change();
   this->Described().servo.rate = rate;
+}
+
+void HapticTouch::SetContactCapacity(int capacity)
+{
+  if (capacity < 0 || capacity > MostContacts)
+  {
+    throw std::invalid_argument("there may be from 1 to " + std::to_string(MostContacts) +
+      " contacts, or 0 to choose their number by the model, not " + std::to_string(capacity));
+  }
+  this->Change();
+  this->Described().solver.capacity = capacity;
 }
 
 void HapticTouch::SetDeformation(DeformationRows rows)

@@ -33,6 +33,7 @@ public:
   /// The first tool; the others stay.
   /// @param radius  of a ball; 0 for a point.
   void SetTool(double radius);
+  void SetContactCapacity(int capacity);
   void SetDevice(const SceneDevice& device);
   void SetRate(double rate);
   void SetDeformation(DeformationRows rows);
@@ -84,6 +85,7 @@ public:
 
   std::int64_t Ticks() const;
   std::int64_t MissedTicks() const;
+  std::int64_t TruncatedTicks() const;
   double TickTime(double share) const;
   std::string TimingTable() const;
   std::vector<Wrench> ForceTrace() const;

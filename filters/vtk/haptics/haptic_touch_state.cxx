@@ -95,6 +95,7 @@ std::string HapticTouch::Status() const
   }
   const ContactCertificate& certificate = this->Snapshot().contact.certificate;
   line += "  residual " + text("%.0e", certificate.residual) + (certificate.budgetCut ? " cut" : "");
+  line += certificate.truncated ? " (contacts left out: more than there is room for)" : "";
   line += "  mu " + text("%.2g", effects.friction);
   if (this->Described().isOfPoints())
   {
@@ -111,6 +112,11 @@ std::int64_t HapticTouch::Ticks() const
 std::int64_t HapticTouch::MissedTicks() const
 {
   return this->Loop ? this->Loop->statistics().missedTicks.load() : 0;
+}
+
+std::int64_t HapticTouch::TruncatedTicks() const
+{
+  return this->Loop ? this->Loop->statistics().truncated.load() : 0;
 }
 
 double HapticTouch::TickTime(double share) const

@@ -36,6 +36,7 @@ void vtkInteractorStyleHaptic::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "MaskRadius: " << this->GetMaskRadius() << "\n"
      << indent << "StiffnessScale: " << this->GetStiffnessScale() << "\n"
      << indent << "RigidStiffness: " << this->GetRigidStiffness() << "\n"
+     << indent << "ContactCapacity: " << this->GetContactCapacity() << "\n"
      << indent << "Deformation: " << this->GetDeformation() << "\n"
      << indent << "ServoRate: " << this->GetServoRate() << "\n"
      << indent << "PressDepth: " << this->PressDepth << "\n"
@@ -178,6 +179,16 @@ bool vtkInteractorStyleHaptic::SetRigidStiffness(double stiffness)
 double vtkInteractorStyleHaptic::GetRigidStiffness()
 {
   return this->Internals->Session.Scene().effects.stiffnessLimit;
+}
+
+bool vtkInteractorStyleHaptic::SetContactCapacity(int capacity)
+{
+  return this->Try([&] { this->Internals->Session.SetContactCapacity(capacity); });
+}
+
+int vtkInteractorStyleHaptic::GetContactCapacity()
+{
+  return this->Internals->Session.Scene().solver.capacity;
 }
 
 bool vtkInteractorStyleHaptic::SetDeformation(int mode)

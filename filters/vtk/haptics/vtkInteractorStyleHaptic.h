@@ -123,6 +123,15 @@ public:
 
   ///@{
   /**
+   * Most contacts of tools with a shape at a time, up to 2000; 0 (default) for as many as the model has
+   * vertices, from 128 to 500. Beyond them the force is too small, and GetStatus says so.
+   */
+  bool SetContactCapacity(int capacity);
+  int GetContactCapacity();
+  ///@}
+
+  ///@{
+  /**
    * Whose displacements a frame computes: all (default), those of vertices that face the camera, those
    * that bear a force, none. Stops.
    */
@@ -247,11 +256,12 @@ public:
 
   ///@{
   /**
-   * Of the loop so far: ticks, ticks left out, and the computing time that a share of the ticks does not
-   * exceed, s. The table tells more.
+   * Of the loop so far: ticks, ticks left out, ticks with more contacts than there is room for, and the
+   * computing time that a share of the ticks does not exceed, s. The table tells more.
    */
   vtkIdType GetNumberOfTicks();
   vtkIdType GetNumberOfMissedTicks();
+  vtkIdType GetNumberOfTruncatedTicks();
   double GetTickTime(double share);
   std::string GetTimingTable();
   ///@}
