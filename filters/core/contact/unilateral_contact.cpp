@@ -242,6 +242,7 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
     certificate.budgetCut = certificate.budgetCut || cut;
   }
   certificate.truncated = isTruncated_;
+  certificate.uncomputed = isUnserved_;
   certificate.failed = certificate.failed || isUnserved_;
   settle();
   return certificate;

@@ -45,7 +45,6 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
       friction_(friction),
       wantedFriction_(friction) {
   if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
-  isPartial_ = contact_.solver().compliance().body(0).missingCount() > 0;
   for (const auto& tool : tools) {
     tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNoWrench});
     poses_.resize(poses_.size() + tool->partCount());
@@ -74,10 +73,6 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
       contact_.setHeld(tools_[t].firstPart + part, holds);
   }
   certificate_ = contact_.step(poses_.data());
-  // With room left, a point is turned away for want of Green's functions alone.
-  certificate_.uncomputed =
-      isPartial_ && contact_.overflowed() && contact_.watchedCount() < contact_.capacity();
-  certificate_.failed = certificate_.failed || certificate_.uncomputed;
   if (certificate_.uncomputed) {
     for (int t = 0; t < toolCount(); ++t) wrenches[t] = tools_[t].wrench = kNoWrench;
     return certificate_;

@@ -74,7 +74,6 @@ class ToolTouch final : public TouchModel {
   UnilateralContact contact_;
   ContactCertificate certificate_;
   bool torques_ = true, holds_ = false;
-  bool isPartial_;   ///< whether free nodes lack Green's functions
   double friction_;  ///< as the contact has it
 
   // Handed over:
