@@ -214,6 +214,11 @@ bool ContactNewtonInverse::factor(const std::vector<Eigen::Matrix3d>& shares) no
   return true;
 }
 
+void ContactNewtonInverse::rebuild(const std::vector<Eigen::Matrix3d>& shares) noexcept {
+  clear();
+  for (int contact = 0; contact < compliance_->count(); ++contact) update(contact, shares[contact]);
+}
+
 void ContactNewtonInverse::apply(double* residual) const noexcept {
   double *in = x_.data(), *out = y_.data();
   const int size = 3 * active_;

@@ -44,6 +44,10 @@ class ContactNewtonInverse {
   /// matrix is singular.
   bool factor(const std::vector<Eigen::Matrix3d>& shares) noexcept;
 
+  /// The same by an update a contact, which LAPACK's threads have no part in: nothing allocates or
+  /// locks. What would make the matrix singular stays out of it.
+  void rebuild(const std::vector<Eigen::Matrix3d>& shares) noexcept;
+
   /// Replaces a residual (3 values a contact) by the inverse times it; of contacts without rows it
   /// stays as it is.
   void apply(double* residual) const noexcept;

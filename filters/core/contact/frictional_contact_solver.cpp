@@ -11,10 +11,14 @@
 namespace palpate {
 namespace {
 
-constexpr double kStaleShare = 0.25;    ///< |D - D of the inverse| from which rows are replaced
-constexpr double kEnoughGain = 0.5;     ///< of the residual, by which a step is worth repeating
-constexpr int kPatience = 4;            ///< Newton steps without gain before sweeps
-constexpr int kSweeps = 8;              ///< at a time
+constexpr double kStaleShare = 0.25;  ///< |D - D of the inverse| from which rows are replaced
+constexpr double kEnoughGain = 0.5;   ///< of the residual, by which a step is worth repeating
+constexpr int kPatience = 4;          ///< steps by the kept inverse without gain
+constexpr int kFreshPatience = 20;    ///< and by fresh ones, which may wander before they arrive
+constexpr double kFreshWork = 4e5;  ///< contacts cubed, 54 flops each: some ms; of a bounded solve
+constexpr double kArmijo = 1e-4;    ///< share of the foreseen gain that a damped step must make
+constexpr int kHalvings = 8;        ///< of a step, at most
+constexpr int kSweeps = 8;          ///< at a time
 constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
 
 /// Sum of the changes of two sites' weights; infinite for other nodes.
@@ -43,7 +47,7 @@ FrictionalContactSolver::FrictionalContactSolver(
   status_.resize(capacity, ContactStatus::Open);
   wanted_.resize(capacity);
   drift_.resize(capacity);
-  for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &best_})
+  for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &best_, &start_, &step_})
     vector->setZero(compliance_->stride());
 }
 
@@ -209,6 +213,53 @@ void FrictionalContactSolver::newtonStep() noexcept {
   forces_.head(3 * count()) -= residual_.head(3 * count());
 }
 
+/// Newton's step by the matrix as it is at the last evaluation.
+/// @return false, with nothing changed, if that is too much work for what is left of it.
+bool FrictionalContactSolver::freshStep(Stage stage) noexcept {
+  double active = 0;
+  for (int i = 0; i < count(); ++i) active += status_[i] != ContactStatus::Open;
+  const double work = active * active * active;
+  if (settings_.largestUpdates > 0 && fresh_ + work > kFreshWork) return false;
+  fresh_ += work;
+  inverse_.rebuild(wanted_);
+  const int size = 3 * count();
+  const double before = residual_.head(size).norm();
+  start_.head(size) = forces_.head(size);
+  linearStep();
+  if (stage == Stage::Damped) damp(before);
+  return true;
+}
+
+/// Newton's step as it is written: what opened contacts change for the others is linearised.
+void FrictionalContactSolver::linearStep() noexcept {
+  const int size = 3 * count();
+  step_.head(size) = displacement_.head(size);
+  for (int i = 0; i < count(); ++i) {
+    if (!inverse_.share(i).isZero(0)) continue;
+    compliance_->addColumn(i, -force(i), displacement_.data());
+    forces_.segment<3>(3 * i).setZero();
+    residual_.segment<3>(3 * i).setZero();
+  }
+  for (int i = 0; i < count(); ++i)
+    residual_.segment<3>(3 * i) += inverse_.scale(i) * inverse_.share(i) *
+                                   (displacement_.segment<3>(3 * i) - step_.segment<3>(3 * i));
+  inverse_.apply(residual_.data());
+  forces_.head(size) -= residual_.head(size);
+}
+
+/// Halves the step from the start to the present forces until it gains.
+void FrictionalContactSolver::damp(double before) noexcept {
+  const int size = 3 * count();
+  step_.head(size) = forces_.head(size) - start_.head(size);
+  double share = 1;
+  for (int k = 0; k < kHalvings; ++k) {
+    evaluate();
+    if (residual_.head(size).norm() <= (1 - kArmijo * share) * before) return;
+    share /= 2;
+    forces_.head(size) = start_.head(size) + share * step_.head(size);
+  }
+}
+
 /// One round of nonlinear Gauss-Seidel: each contact in turn is projected, the others held.
 void FrictionalContactSolver::sweep() noexcept {
   for (int i = 0; i < count(); ++i) {
@@ -217,6 +268,15 @@ void FrictionalContactSolver::sweep() noexcept {
     forces_.segment<3>(3 * i) = after;
     compliance_->addColumn(i, after - before, displacement_.data());
   }
+}
+
+/// What is tried after a stage has not gained; sweeps come between Damped and Kept.
+FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexcept {
+  if (stage == Stage::Kept) return Stage::Whole;
+  if (stage == Stage::Whole) return Stage::Damped;
+  evaluate();
+  for (int k = 0; k < kSweeps; ++k) sweep();
+  return Stage::Kept;
 }
 
 /// Puts every force into its cone. @return the largest excess there was over the largest force.
@@ -244,8 +304,10 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
   int updatesLeft =
       settings_.largestUpdates > 0 ? settings_.largestUpdates : std::numeric_limits<int>::max();
   constexpr double none = std::numeric_limits<double>::infinity();
-  double best = none, goal = none, last = none;  // goal: best since the last sweeps
+  double best = none, goal = none, last = none;  // goal: best of this stage
+  Stage stage = Stage::Kept;
   int withoutGain = unsettled_ ? kPatience + 1 : 0;
+  fresh_ = 0;
   best_.head(size).setZero();
   for (;; ++certificate.iterations) {
     const double residual = evaluate();
@@ -259,14 +321,16 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     if (residual <= settings_.tolerance / 2 * largest_) break;  // the rest is for the cones
     certificate.budgetCut = certificate.iterations == settings_.largestIterations;
     if (certificate.budgetCut) break;
-    if (withoutGain > kPatience || !std::isfinite(residual)) {
+    const bool isStuck = withoutGain > (stage == Stage::Kept ? kPatience : kFreshPatience) ||
+                         !std::isfinite(residual);
+    if (isStuck || (stage != Stage::Kept && !freshStep(stage))) {
       forces_.head(size) = best_.head(size);
-      evaluate();
-      for (int k = 0; k < kSweeps; ++k) sweep();
+      stage = next(stage);
       withoutGain = 0;
       goal = last = none;
       continue;
     }
+    if (stage != Stage::Kept) continue;
     updatesLeft -= renew(updatesLeft);
     // Where the steps gain little, rows that hardly changed or have drifted are worth a refresh.
     if (residual > kEnoughGain * last && updatesLeft > 0) {

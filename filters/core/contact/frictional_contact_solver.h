@@ -31,8 +31,9 @@ struct ContactSolverSettings {
   /// Of |f - P(f - r v)|, the residual of the projection form, over the largest force.
   double tolerance = 1e-9;
   int largestIterations = 100;
-  /// Rank-three updates of the inverse in one solve; 0 for no limit, then it may also be factored
-  /// afresh.
+  /// Rank-three updates of the inverse in one solve while it is kept; 0 for no limit, then it may
+  /// also be factored by LAPACK. With a limit, making it anew where steps do not gain is bounded by
+  /// some 2e7 flops a solve.
   int largestUpdates = 0;
 };
 
@@ -47,10 +48,14 @@ struct ContactSolverSettings {
 /// active set method of M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002). The
 /// inverse of the Newton matrix stays from one solve to the next: a contact that enters, leaves or
 /// changes between open, stick and slip costs an update of O(s^2), as in [JP01] section 4.3, and
-/// what has changed little since is left to the iteration. Where Newton's steps do not gain, sweeps
-/// of nonlinear Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)) go on from the
-/// best point so far. Contacts may depend on each other: the matrix is regularised, the residual is
-/// not.
+/// what has changed little since is left to the iteration. Where such steps do not gain, others go
+/// on from the best point so far, in turn, as in the hybrids that V. Acary, M. Bremond and O. Huber
+/// found the most robust ("On solving contact problems with Coulomb friction: formulations and
+/// numerical comparisons", in: Advanced Topics in Nonsmooth Dynamics, 2018): sweeps of nonlinear
+/// Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)), and, where few contacts
+/// bear forces, Newton's steps with the inverse made afresh for each, whole at first, then damped
+/// by Armijo's rule on the norm of the residual. Contacts may depend on each other: the matrix is
+/// regularised, the residual is not.
 ///
 /// All memory is reserved by the constructor; nothing else allocates or throws. The work of a solve
 /// is bounded by its settings alone, so that equal input gives equal output bit by bit.
@@ -105,6 +110,12 @@ class FrictionalContactSolver {
   int renew(int mostUpdates) noexcept;
   int mostOutdated() noexcept;
   void newtonStep() noexcept;
+  /// How Newton's steps are made: by the inverse that is kept, by a fresh one, and damped.
+  enum class Stage { Kept, Whole, Damped };
+  Stage next(Stage stage) noexcept;
+  bool freshStep(Stage stage) noexcept;
+  void linearStep() noexcept;
+  void damp(double before) noexcept;
   void sweep() noexcept;
   double largestForce() const noexcept;
 
@@ -116,6 +127,8 @@ class FrictionalContactSolver {
   std::vector<double> drift_;            ///< sums of the weights' changes since rows were made
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
   Eigen::VectorXd forces_, displacement_, residual_, best_;
+  Eigen::VectorXd start_, step_;  ///< of a damped step
+  double fresh_ = 0;        ///< sum of the cubes of contacts, of inverses made afresh in this solve
   int cursor_ = 0;          ///< contact whose rows were replaced last because they were stale
   int refreshed_ = 0;       ///< and because steps did not gain
   double largest_ = 0;      ///< force at the last evaluation, N
