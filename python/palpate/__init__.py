@@ -17,18 +17,11 @@ True
 from .PalpateElastostatics import *  # noqa: F401,F403
 from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
+from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
 from .files import example, read, write
-from .functions import (
-    precompute,
-    press,
-    refine,
-    remesh,
-    repair,
-    solve,
-    stiffness,
-    stiffness_artifacts,
-)
+from .precomputation import precompute
+from .surfaces import refine, remesh, repair
 from .version import __version__
 
 __all__ = [

@@ -1,20 +1,12 @@
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One call for each thing that the filters do."""
-
-import warnings
+"""What bodies do where they are touched."""
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
 from .arguments import (
-    COLLOCATIONS,
-    DOMAINS,
-    PRECISIONS,
-    SUBDIVISIONS,
-    choice,
     flag,
-    listed,
     number,
     positive,
     progress_callback,
@@ -23,184 +15,17 @@ from .arguments import (
     vector,
     vectors,
     vertex_list,
-    whole_number,
 )
 from .arrays import array, as_ids, as_vtk
-from .errors import Error, ModelWarning, run
+from .errors import Error, run
 from .PalpateElastostatics import (
-    vtkBoundaryElementGreensFunctions,
     vtkCapacitanceSolve,
-    vtkElasticMeshRepair,
-    vtkIsotropicRemeshing,
     vtkPointContact,
-    vtkReferenceBoundaryConditions,
     vtkStiffnessArtifacts,
-    vtkSurfaceRefinement,
     vtkSurfaceStiffness,
-    vtkToleranceGreensFunctions,
 )
 
-FIXED = "PrecomputeFixed"  # carries an argument to a filter
-
-__all__ = ["precompute", "press", "refine", "remesh", "repair", "solve", "stiffness",
-           "stiffness_artifacts"]
-
-
-def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
-               tolerance=None, columns=None, domain="interior", reciprocal=True,
-               smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
-               threads=0, solver="direct", integration_tolerance=None, support_patch=None,
-               estimate_error=True, max_levels=None, max_vertices=None, subdivision=None):
-    """Compute the Green's functions of an elastic body from its surface.
-
-    Parameters
-    ----------
-    surface : vtkPolyData
-        A closed triangle surface of n vertices, normals out of what it encloses (see `repair`).
-        Lengths in metres, or in any one unit.
-    young : float or None
-        Young's modulus, Pa, > 0. None takes the surface's field data.
-    poisson : float or None
-        Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
-    fixed : array_like of bool, optional
-        n values, where the body is held. None takes the surface's point array `BoundaryType`.
-    method : {"bem"}
-        Boundary elements.
-    precision : {"double", "mixed", "float"}
-        Double; factored in float and refined to 1e-11 in double, which is faster where few columns are
-        wanted and slower where all are; or all in float (half the memory and time, about 1e-5).
-    tolerance : float, optional
-        Largest relative error, above 0 and below 1. The cheapest settings whose estimated error meets it
-        are chosen: how often the surface is refined, precision, integration tolerance (none of which
-        may then be given, nor `columns`). The field array `ToleranceSteps` says what was tried. The error is that of displacements and contact compliances, relative, under unit forces
-        spread like a cone over the length `ErrorLoadLength`, which 95 % of the loads do not exceed.
-    columns : array_like of int, optional
-        Vertices whose Green's functions are computed, by number or as a mask of n booleans; all free
-        ones by default. Moving or releasing fixed vertices needs theirs, too.
-    domain : {"interior", "exterior"}
-        Material inside the surface, or everywhere outside it.
-    reciprocal : bool
-        Symmetrise the compliance between free vertices, so that all that is served comes from one
-        energy. Distributed loads on coarse or sharp-edged meshes are more accurate without, pressures on
-        nearly incompressible bodies much more so. Above a Poisson ratio of 0.45 the change of volume is
-        kept, which takes the columns of all free vertices.
-    smooth_angle : float
-        Traction may jump at edges sharper than this, degrees, unless the surface has a cell array
-        `SmoothPatch`. 180 for one traction a vertex.
-    progress : callable or bool, optional
-        Called as progress(fraction, stage); return False to abort. True shows a bar.
-    collocation : {"averaged", "vertex"}
-        Enforce the boundary integral equation in the mean around each vertex, or at the vertices as in
-        the paper (faster to assemble, several times less accurate).
-    patch_columns : bool
-        Also compute what `solve` needs for `face_tractions` on surfaces with sharp edges.
-    threads : int
-        0 for all cores, at most 1024.
-    solver : {"direct", "iterative"}
-        Factor the system, or iterate to a residual of 1e-9 in double precision, which is cheaper where
-        few columns of a large surface are wanted.
-    integration_tolerance : float, optional
-        Relative tolerance of the integrals, 1e-6 by default.
-    support_patch : bool, optional
-        End the support's traction at its rim and not half an edge beyond, which is several times more
-        accurate near it. By default with a `tolerance` only.
-    estimate_error : bool
-        Estimate the error on a coarser mesh, or for small surfaces on a finer one: the field arrays
-        `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails.
-    max_levels, max_vertices : int, optional
-        How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
-    subdivision : {"loop", "flat", "curved"}, optional
-        As in `refine`, how a `tolerance` refines; flat by default.
-
-    Returns
-    -------
-    vtkPolyData
-        The surface, refined if a `tolerance` called for it, with its Green's functions, provenance
-        and diagnostics as arrays.
-
-    Raises
-    ------
-    Error
-        With the sentence of what is wrong with the surface, the support or the material.
-    Aborted
-        If `progress` returned False.
-
-    Warns
-    -----
-    ModelWarning
-        Where the model is doubtful, with the measured number; also kept in its field array `Warnings`.
-
-    Examples
-    --------
-    >>> import palpate
-    >>> nodule = palpate.refine(palpate.read(palpate.example("nodule")))
-    >>> model = palpate.precompute(nodule, young=20e3, poisson=0.45)
-    >>> palpate.greens_functions(model).shape
-    (390, 267)
-    >>> float(palpate.array(model, "ErrorEstimate")[0]) < 0.2
-    True
-    """
-    choice(method, {"bem": 0}, "method")
-    conditions = vtkReferenceBoundaryConditions()
-    conditioned = vtkPolyData()
-    conditioned.ShallowCopy(surface_of(surface))
-    if fixed is not None:
-        fixed = listed(fixed, "fixed")
-        if fixed.dtype.kind not in "biuf" or not np.isfinite(fixed).all():
-            raise Error("fixed must hold booleans")
-        if fixed.shape != (surface.GetNumberOfPoints(),):
-            raise Error(f"fixed must hold {surface.GetNumberOfPoints()} values, one a vertex, not "
-                        f"{'x'.join(map(str, fixed.shape))}")
-        conditioned.GetPointData().AddArray(as_vtk(fixed.astype(bool), FIXED, 1, np.uint8))
-        conditions.SetFixedArrayName(FIXED)
-    conditions.SetInputData(conditioned)
-    if young is not None:
-        conditions.SetYoungsModulus(number(young, "Young's modulus"))
-    if poisson is not None:
-        conditions.SetPoissonRatio(number(poisson, "Poisson's ratio"))
-
-    if tolerance is None:
-        if not (max_levels is None and max_vertices is None and subdivision is None):
-            raise Error("max_levels, max_vertices and subdivision go with a tolerance: give one, or "
-                        "refine the surface yourself")
-        bem = vtkBoundaryElementGreensFunctions()
-        bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
-        bem.SetSolver(choice(solver, {"direct": 0, "iterative": 1}, "solver"))
-        bem.SetEstimateError(flag(estimate_error, "estimate_error"))
-        if integration_tolerance is not None:
-            bem.SetTolerance(number(integration_tolerance, "integration_tolerance"))
-    else:
-        if (precision != "double" or solver != "direct" or integration_tolerance is not None
-                or columns is not None):
-            raise Error("a tolerance chooses precision, solver, integration_tolerance and columns: leave "
-                        "them out, or the tolerance")
-        bem = vtkToleranceGreensFunctions()
-        bem.SetErrorTolerance(number(tolerance, "tolerance"))
-        if max_levels is not None:
-            bem.SetMaximumNumberOfLevels(whole_number(max_levels, "max_levels", 9))
-        if max_vertices is not None:
-            bem.SetMaximumNumberOfVertices(whole_number(max_vertices, "max_vertices", 100000))
-        if subdivision is not None:
-            bem.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
-    if support_patch is not None:
-        bem.SetSupportPatch(flag(support_patch, "support_patch"))
-    posed = run(conditions)
-    posed.GetPointData().RemoveArray(FIXED)
-    bem.SetInputData(posed)
-    bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
-    bem.SetDomain(choice(domain, DOMAINS, "domain"))
-    bem.SetReciprocal(flag(reciprocal, "reciprocal"))
-    bem.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
-    bem.SetPatchColumns(flag(patch_columns, "patch_columns"))
-    bem.SetNumberOfThreads(whole_number(threads, "threads", 1024))
-    if columns is not None:
-        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
-        bem.SetColumnNodes(as_ids(nodes, "columns"))
-    model = run(bem, progress_callback(progress))
-    if model.GetFieldData().HasArray("Warnings"):
-        for sentence in array(model, "Warnings"):
-            warnings.warn(sentence, ModelWarning, stacklevel=2)
-    return model
+__all__ = ["press", "solve", "stiffness", "stiffness_artifacts"]
 
 
 def solve(model, nodes, displacements, free_tractions=None, face_tractions=None):
@@ -469,117 +294,3 @@ def stiffness_artifacts(model, radius=None, mask="linear", *, radius_in_edges=No
         algorithm.SetReferenceData(surface_of(reference))
     set_mask(algorithm, radius, radius_in_edges, mask, distance, measure)
     return run(algorithm, progress_callback(progress))
-
-
-def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progress=None):
-    """Another mesh of a closed surface, with edges of about one length.
-
-    Parameters
-    ----------
-    surface : vtkPolyData
-        A closed triangle surface. The rims of its support and of its smooth patches keep their place.
-    edge_length : float, optional
-        Wanted, in the surface's unit; the surface's mean edge by default.
-    iterations : int
-        How often the mesh is worked over, 1 to 100.
-    smooth_angle : float
-        Edges sharper than this, degrees, are kept where there is no cell array `SmoothPatch`.
-    progress : callable or bool, optional
-        As in `precompute`.
-
-    Returns
-    -------
-    vtkPolyData
-        The surface with its `BoundaryType`, a given `SmoothPatch` and the material.
-
-    Raises
-    ------
-    Error
-        With the sentence of what is wrong.
-
-    Examples
-    --------
-    >>> import palpate
-    >>> kidney = palpate.refine(palpate.read(palpate.example("kidney")), 3)
-    >>> even = palpate.remesh(kidney, 0.008)
-    >>> 250 < even.GetNumberOfPoints() < 500
-    True
-    """
-    algorithm = vtkIsotropicRemeshing()
-    algorithm.SetInputData(surface_of(surface))
-    if edge_length is not None:
-        algorithm.SetEdgeLength(positive(edge_length, "edge_length"))
-    times = whole_number(iterations, "iterations", 100)
-    if times == 0:
-        raise Error("iterations must be 1 to 100, not 0")
-    algorithm.SetNumberOfIterations(times)
-    algorithm.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
-    return run(algorithm, progress_callback(progress))
-
-
-def refine(surface, levels=1, subdivision="loop"):
-    """Subdivide a closed surface, with its boundary types and other data.
-
-    Parameters
-    ----------
-    surface : vtkPolyData
-        A closed triangle surface.
-    levels : int
-        How often every triangle is split in four, 0 to 8.
-    subdivision : {"loop", "flat", "curved"}
-        What the surface stands for: the control mesh of a smooth one, towards which its vertices move
-        (Loop 1987); itself; or a surface through its vertices, smooth but for edges sharper than 30
-        degrees (Vlachos et al. 2001).
-
-    Returns
-    -------
-    vtkPolyData
-        Old vertices keep their numbers.
-
-    Raises
-    ------
-    Error
-        With the sentence of what is wrong with the surface.
-
-    Examples
-    --------
-    >>> import palpate
-    >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
-    620
-    """
-    refinement = vtkSurfaceRefinement()
-    refinement.SetInputData(surface_of(surface))
-    refinement.SetNumberOfLevels(whole_number(levels, "levels", 8))
-    refinement.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
-    return run(refinement)
-
-
-def repair(surface):
-    """Mend a surface so that it bounds elastic bodies.
-
-    Parameters
-    ----------
-    surface : vtkPolyData
-        Any polygons.
-
-    Returns
-    -------
-    vtkPolyData
-        A sound surface; what was changed is in the field array `RepairChanges`, a sentence each. A
-        sound surface comes back as it is, without that array.
-
-    Raises
-    ------
-    Error
-        With the sentence of what could not be mended.
-
-    Examples
-    --------
-    >>> import palpate
-    >>> kidney = palpate.read(palpate.example("kidney"))
-    >>> palpate.repair(kidney).GetFieldData().HasArray("RepairChanges")
-    0
-    """
-    mender = vtkElasticMeshRepair()
-    mender.SetInputData(surface_of(surface))
-    return run(mender)
