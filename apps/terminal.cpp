@@ -101,6 +101,7 @@ void catchInterrupts() {
   action.sa_handler = [](int) { interrupted = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);  // the terminal was closed
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure like others
 }
 

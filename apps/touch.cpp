@@ -68,8 +68,7 @@ void addLabOptions(CLI::App& command, TouchOptions& options) {
       command
           .add_option("--at", options.at, "Where the lab presses: the nearest point of the surface")
           ->expected(3);
-  CLI::Option* depth =
-      command.add_option("--depth", options.depth, "How deep, in the points' unit");
+  CLI::Option* depth = command.add_option("--depth", options.depth, "How deep, m");
   CLI::Option* rates =
       command.add_option("--rates", options.rates, "Hz; by default 250 500 1000 2000 4000");
   CLI::Option* dampings =
@@ -103,16 +102,17 @@ void addDeviceOptions(CLI::App& command, TouchOptions& options) {
 }
 
 void addContactOptions(CLI::App& command, TouchOptions& options) {
-  CLI::Option* ball = command.add_option("--tool-radius", options.toolRadius,
-                                         "Touch with a ball of this radius instead of a point; of "
-                                         "a scene, in place of its first tool");
+  CLI::Option* ball =
+      command.add_option("--tool-radius", options.toolRadius,
+                         "Touch with a ball of this radius, m, instead of a point; of "
+                         "a scene, in place of its first tool");
   requirePositive(ball, kFarthest);
   requireBetween(command.add_option("--friction", options.friction,
                                     "Coulomb's coefficient, up to 100; 0.3 by default"),
                  0, kLargestFriction);
   CLI::Option* mask =
       command.add_option("--radius", options.maskRadius,
-                         "Radius of a point's pressure mask; two mean edges by default");
+                         "Radius of a point's pressure mask, m; two mean edges by default");
   requireBetween(mask, 0, kFarthest);
   CLI::Option* stiffness =
       command.add_option("--rigid-stiffness", options.stiffnessLimit,
@@ -175,7 +175,7 @@ void addGrasp(CLI::App& program) {
   command->add_option("--device", options->device,
                       "scripted:FILE, a glove's recording; by default a hand that closes");
   requirePositive(command->add_option("--hand-length", options->handLength,
-                                      "Wrist to fingertip; by default to fit the model"),
+                                      "Wrist to fingertip, m; by default to fit the model"),
                   kFarthest);
   requireBetween(command->add_option("--friction", options->friction,
                                      "Coulomb's coefficient, up to 100; 0.5 by default"),

@@ -12,6 +12,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 
@@ -77,6 +78,16 @@ VirtualDisplay::VirtualDisplay() {
         "neither");
   }
   setenv("DISPLAY", (":" + number).c_str(), 1);
+}
+
+void onDisplayLoss(void (*action)()) {
+  static void (*wanted)() = nullptr;
+  wanted = action;
+  XSetIOErrorHandler([](Display*) -> int {
+    if (wanted) wanted();
+    std::cerr << "palpate: the display is gone\n";
+    std::_Exit(1);
+  });
 }
 
 VirtualDisplay::~VirtualDisplay() {

@@ -8,6 +8,9 @@ namespace palpate::app {
 /// Whether DISPLAY names one that lets windows be opened.
 bool hasDisplay();
 
+/// What is done before Xlib ends the process because its display has gone; may be set again.
+void onDisplayLoss(void (*action)());
+
 /// An X display to draw on: the user's where there is one, else an Xvfb of our own that ends with
 /// this object.
 class VirtualDisplay {

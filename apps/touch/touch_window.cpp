@@ -22,6 +22,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "haptics/force_safety.h"
 #include "picture/virtual_display.h"
 #include "touch/window.h"
 #include "whole_file.h"
@@ -35,9 +36,16 @@ void require(bool done, vtkInteractorStyleHaptic* style) {
 }
 
 void warnOfUnits(vtkPolyData* model) {
-  if (model->GetLength() <= kLongestModel) return;
-  std::cerr << "palpate: warning: the model is " << model->GetLength()
-            << " m long: its points are taken for metres; are they millimetres?\n";
+  if (model->GetLength() > kLongestModel)
+    std::cerr << "palpate: warning: the model is " << model->GetLength()
+              << " m long: its points are taken for metres; are they millimetres?\n";
+  const double* box = model->GetBounds();
+  double farthest = 0;
+  for (int k = 0; k < 6; ++k) farthest = std::max(farthest, std::abs(box[k]));
+  if (model->GetLength() <= kLongestModel && farthest > SafetySettings().largestReach)
+    std::cerr << "palpate: warning: the model lies up to " << farthest
+              << " m from the origin: devices reach " << SafetySettings().largestReach
+              << " m, unless a scene maps them there\n";
 }
 
 void requireUninterrupted(const TouchOptions& options) {
@@ -117,16 +125,29 @@ void printProbes(vtkInteractorStyleHaptic* style) {
   }
 }
 
+/// What safety let through, where that is less.
+void printRendered(vtkInteractorStyleHaptic* style, int tool, const double* force) {
+  double rendered[3];
+  style->GetRenderedForce(tool, rendered);
+  const double wanted = std::hypot(force[0], force[1], force[2]);
+  if (std::hypot(rendered[0], rendered[1], rendered[2]) >= 0.999 * wanted) return;
+  std::printf("         rendered %.6g %.6g %.6g N, limited or faded for safety\n", rendered[0],
+              rendered[1], rendered[2]);
+}
+
 void printState(vtkInteractorStyleHaptic* style) {
   std::cout << style->GetStatus() << "\n";
   for (int tool = 0; tool < style->GetNumberOfTools(); ++tool) {
     double force[3], torque[3], at[3];
     style->GetForce(tool, force);
     style->GetTorque(tool, torque);
+    for (double* vector : {force, torque})
+      for (int k = 0; k < 3; ++k) vector[k] += 0.0;  // no negative zeros
     style->GetContactPoint(tool, at);
     std::printf("tool %d   force %.6g %.6g %.6g N   torque %.6g %.6g %.6g N m\n", tool, force[0],
                 force[1], force[2], torque[0], torque[1], torque[2]);
     if (style->IsTouching(tool)) std::printf("         at %.6g %.6g %.6g\n", at[0], at[1], at[2]);
+    printRendered(style, tool, force);
   }
   std::fflush(stdout);
   printProbes(style);
@@ -135,7 +156,8 @@ void printState(vtkInteractorStyleHaptic* style) {
               static_cast<long long>(style->GetNumberOfMissedTicks()));
   if (style->GetNumberOfTruncatedTicks() > 0)
     std::printf(
-        "         %lld with contacts left out, whose force is too small: raise --contacts\n",
+        "         %lld with contacts left out, whose force is too small: raise --contacts, or a "
+        "scene's solver.capacity\n",
         static_cast<long long>(style->GetNumberOfTruncatedTicks()));
   std::cout << style->GetTimingTable() << std::flush;
 }
@@ -203,6 +225,9 @@ struct Clock {
   }
 };
 
+/// What stops when the display goes: no force may outlive it, and no recording be lost.
+vtkInteractorStyleHaptic* touching = nullptr;
+
 }  // namespace
 
 void runWindow(const TouchOptions& options) {
@@ -225,6 +250,10 @@ void runWindow(const TouchOptions& options) {
   window.use(style);
   configure(style, options);
   window.interactor()->Initialize();
+  touching = style;
+  onDisplayLoss([] {
+    if (touching) touching->Stop();
+  });
   require(style->Start(), style);
   Warnings warnings;
   warnings.print(style);
@@ -234,8 +263,8 @@ void runWindow(const TouchOptions& options) {
   look->SetCallback(&Clock::look);
   look->SetClientData(&clock);
   window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
-  window.interactor()->Start();
-  requireUninterrupted(options);
+  window.interactor()->Start();  // an interruption closes the window, and all is written
+  touching = nullptr;
   require(style->Stop(), style);
   warnings.print(style);
   style->Update();

@@ -303,6 +303,9 @@ TEST(TouchSessions, RefuseToolsOfAnotherUnit) {
       EXPECT_TRUE(isRefused([&] { Counted(body, shape + std::string(size), ""); },
                             "does not fit a model of "))
           << shape << size;
+    EXPECT_TRUE(isRefused(
+        [&] { Counted(body, "\"shape\": \"capsule\", \"length\": 40, \"radius\": 0.1", ""); },
+        "does not fit a model of "));
     for (const char* size : {"0.001", "30"})
       EXPECT_NO_THROW(Counted(body, shape + std::string(size), ""));
   }

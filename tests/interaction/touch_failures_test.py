@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import palpate
-from support.surfaces import PROGRAM, cube, points_of
+from support.surfaces import PROGRAM, cube, points_of, polydata, triangles_of
 from support.touch import PRESS, REST, SIZE, TOP, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 
@@ -251,6 +251,19 @@ class BadFiles(Program):
             self.assertEqual(ran.returncode, 0, ran.stderr)
             self.assertEqual(ran.stderr, "palpate: warning: the model is 173.205 m long: its points are "
                              "taken for metres; are they millimetres?\n")
+        block = block_model()
+        away = polydata(points_of(block) + (12, 0, 0), triangles_of(block))
+        far = self.folder / "far.vtp"
+        palpate.write(palpate.precompute(away, 1e4, 0.3, fixed=points_of(block)[:, 2] == 0), far)
+        self.assertRegex(self.start("touch", far, "--headless", "--seconds", 0.1).stderr,
+                         "lies up to 12[.0-9]* m from the origin: devices reach 10 m")
+
+    def test_forces_that_safety_limits_are_told(self):
+        block, stiff = block_model(), self.folder / "stiff.vtp"
+        palpate.write(palpate.precompute(block, 1e8, 0.3), stiff)
+        touch = ("--device", "simulated", "--headless", "--seconds", 1)
+        self.assertRegex(self.run_well("touch", stiff, *touch), "rendered .* N, limited or faded for safety")
+        self.assertNotIn("rendered", self.run_well("touch", self.model, *touch))
 
     def test_tools_that_the_mesh_is_too_coarse_for_are_told_once(self):
         for option in (("--tool-radius", 0.001), ("--radius", 0.002)):
@@ -311,21 +324,24 @@ class BadFiles(Program):
 
 
 class Interruption(Program):
-    """Ctrl-C and termination end a run soon, with a sentence and without a file."""
+    """Ctrl-C, termination and a closed terminal end a run soon, with a sentence and without a file; in a
+    window they close it, and what was recorded is kept."""
 
-    def interrupt(self, how, *arguments, env=WITHOUT_DISPLAY):
-        before = sorted(self.folder.iterdir())
+    def end_by(self, how, *arguments, env=WITHOUT_DISPLAY):
         with subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, text=True,
                               stderr=subprocess.PIPE, env=env, start_new_session=True) as run:
             try:
                 self.await_handler(run.pid, how)
                 time.sleep(0.5)
                 os.killpg(run.pid, how)
-                out, errors = run.communicate(timeout=30)
+                return *run.communicate(timeout=30), run.wait()
             finally:
                 run.kill()
-        self.assertEqual((out, errors), ("", "palpate: interrupted; nothing was written\n"))
-        self.assertEqual(run.returncode, 1)
+
+    def interrupt(self, how, *arguments):
+        before = sorted(self.folder.iterdir())
+        self.assertEqual(self.end_by(how, *arguments),
+                         ("", "palpate: interrupted; nothing was written\n", 1))
         self.assertEqual(before, sorted(self.folder.iterdir()))
 
     def await_handler(self, process, how):
@@ -338,7 +354,7 @@ class Interruption(Program):
         self.fail("the program does not catch the signal")
 
     def test_ends_a_run_without_a_window(self):
-        for how in (signal.SIGINT, signal.SIGTERM):
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             self.interrupt(how, *self.scripted(PRESS), "--seconds", 80000, "--forces",
                            self.folder / "a.csv")
 
@@ -355,15 +371,35 @@ class Interruption(Program):
                        self.folder / "a.png")
 
     @unittest.skipUnless(shutil.which("Xvfb"), "no display to be had")
-    def test_ends_a_window(self):
+    def test_closes_a_window_and_keeps_the_recording(self):
+        record = self.folder / "a.txt"
         with subprocess.Popen(["Xvfb", "-displayfd", "1", "-nolisten", "tcp"], text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
             try:
                 env = {**os.environ, "DISPLAY": ":" + server.stdout.readline().strip()}
-                self.interrupt(signal.SIGTERM, "touch", self.model, "--record",
-                               self.folder / "a.txt", env=env)
+                out, errors, code = self.end_by(signal.SIGTERM, "touch", self.model, "--record",
+                                                record, env=env)
             finally:
                 server.terminate()
+        self.assertEqual((errors, code), ("", 0))
+        self.assertIn("ticks", out)
+        self.assertIn("palpate-device-recording", record.read_text())
+
+    @unittest.skipUnless(shutil.which("Xvfb"), "no display to be had")
+    def test_that_the_display_has_gone_is_told_and_keeps_the_recording(self):
+        record = self.folder / "b.txt"
+        with subprocess.Popen(["Xvfb", "-displayfd", "1", "-nolisten", "tcp"], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
+            env = {**os.environ, "DISPLAY": ":" + server.stdout.readline().strip()}
+            with subprocess.Popen([PROGRAM, "touch", self.model, "--record", record], env=env, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+                self.await_handler(run.pid, signal.SIGTERM)
+                time.sleep(2)
+                server.kill()
+                _, errors = run.communicate(timeout=30)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("palpate: the display is gone", errors)
+        self.assertIn("palpate-device-recording", record.read_text())
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include "haptics/touch_session.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -129,6 +130,8 @@ std::shared_ptr<TouchModel> toolTouch(
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const auto mesh = i < toolMeshes.size() ? toolMeshes[i] : nullptr;
     requireToFit(sizeOf(scene.tools[i], mesh.get(), bodies[0]), bodies[0]);
+    if (scene.tools[i].shape == ToolShape::Capsule)
+      requireToFit(std::max(scene.tools[i].radius, scene.tools[i].length), bodies[0]);
     tools.push_back(toolOf(scene.tools[i], mesh));
   }
   std::vector<ElasticPartner> partners;
