@@ -234,6 +234,7 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
        "\"solver.capacity\" must be a whole number"},
       {"\"margin\": 0.001", "\"margin\": -1", "\"solver.margin\" must be"},
       {"\"linearisations\": 2", "\"linearisations\": 0", "\"solver.linearisations\" must be"},
+      {"\"linearisations\": 2", "\"linearisations\": 21", "\"solver.linearisations\" must be"},
       {"\"tolerance\": 1e-6", "\"tolerance\": 0", "\"solver.tolerance\" must be"},
       {"\"largest_iterations\": 20", "\"largest_iterations\": 0",
        "\"solver.largest_iterations\" must"},

@@ -326,7 +326,7 @@ UnilateralContactSettings readSolver(const Json& value) {
   UnilateralContactSettings solver;
   readIf(section, "capacity", solver.capacity, readInteger, 1, 2000);
   readIf(section, "margin", solver.margin, readNotNegative, kFarthest);
-  readIf(section, "linearisations", solver.linearisations, readInteger, 1, 1000);
+  readIf(section, "linearisations", solver.linearisations, readInteger, 1, 20);
   readIf(section, "tolerance", solver.solver.tolerance, readPositive, 1);
   readIf(section, "largest_iterations", solver.solver.largestIterations, readInteger, 1, 1000000);
   readIf(section, "largest_updates", solver.solver.largestUpdates, readInteger, 0, 1000000);

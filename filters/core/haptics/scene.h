@@ -82,7 +82,7 @@ struct SceneEffects {
   MaskShape maskShape = MaskShape::Linear;
   double maskRadius = 0;        ///< m
   double maskRadiusEdges = 0;   ///< mean edge lengths, instead
-  double stiffnessLimit = 0;    ///< k_Rigid, N/m; 0 for the model's own
+  double stiffnessLimit = 0;    ///< k_Rigid, N/m, of points and of fixed vertices
   double stiffnessScale = 1;    ///< of all forces
   bool elasticElastic = false;  ///< whether further models meet the first
 };
@@ -116,7 +116,8 @@ struct SceneEffects {
 ///   is held, and pulled, while the first button of their device is pressed), "torque" (false),
 ///   "gravity" in m/s^2 (0), "probes": a list of {"name", and "node" or "position"} (none), "masks"
 ///   of points: {"shape": linear, uniform, gaussian or hertzian (linear), "radius" or
-///   "radius_edges" (the vertex alone)}, "stiffness_limit" in N/m (the model's own),
+///   "radius_edges" (the vertex alone)}, "stiffness_limit" in N/m, of what points feel and of fixed
+///   vertices (the model's own),
 ///   "stiffness_scale" (1), "elastic_elastic" (false)}.
 /// - "servo": {"rate" in Hz (1000), "budget" (0.7), "snapshot_ticks" (1), "passivity_damping" in N
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
