@@ -208,6 +208,8 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
        "\"effects.stiffness_scale\" must be a positive number"},
       {"\"elastic_elastic\": true", "\"elastic_elastic\": false",
        "\"models[1]\" meets the first only if effects.elastic_elastic is true"},
+      {"{\"name\": \"glove\", \"type\": \"scripted\", \"file\": \"trace.txt\"}",
+       "{\"name\": \"glove\", \"type\": \"mouse\"}", "\"tools[3].device\" must have joints"},
       {"\"torque\": true", "\"masks\": {}", "\"effects.masks\" are of points"},
       {"\"torque\": true", "\"wind\": 5",
        "\"effects.wind\" is not a key that is known here: the nearest is"},

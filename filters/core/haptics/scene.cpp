@@ -165,6 +165,8 @@ std::vector<SceneTool> readTools(const Json& value, const std::vector<SceneDevic
     const SceneTool tool = readTool(entry, path, devices);
     if (isHeld[tool.device]) refuseKey(path + ".device", "moves another tool already");
     isHeld[tool.device] = true;
+    if (tool.shape == ToolShape::Hand && devices[tool.device].type == DeviceType::Mouse)
+      refuseKey(path + ".device", "must have joints to move a hand with, which a mouse has not");
     if (!tools.empty() &&
         (tool.shape == ToolShape::Point) != (tools.front().shape == ToolShape::Point))
       refuseKey(path + ".shape", "must be a point as the other tools are, or none of them");
