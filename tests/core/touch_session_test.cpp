@@ -17,16 +17,17 @@
 namespace palpate::test {
 namespace {
 
-/// A scene of one body and tools that mice move.
+/// A scene of one body and tools that recordings move.
 std::string sceneText(const std::string& shapes, const std::string& effects,
                       const std::string& models = "{\"file\": \"sphere\"}") {
   std::string tools, devices;
   int count = 0;
   for (std::size_t at = 0; at < shapes.size();) {
     const std::size_t end = std::min(shapes.find(';', at), shapes.size());
-    const std::string name = "\"mouse " + std::to_string(count) + "\"", comma = count++ ? ", " : "";
+    const std::string name = "\"device " + std::to_string(count) + "\"",
+                      comma = count++ ? ", " : "";
     tools += comma + "{" + shapes.substr(at, end - at) + ", \"device\": " + name + "}";
-    devices += comma + "{\"name\": " + name + ", \"type\": \"mouse\"}";
+    devices += comma + "{\"name\": " + name + ", \"type\": \"scripted\", \"file\": \"motion.txt\"}";
     at = end + 1;
   }
   return "{\"models\": [" + models + "], \"tools\": [" + tools + "], \"devices\": [" + devices +
