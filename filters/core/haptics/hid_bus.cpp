@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "haptics/hidraw_path.h"
 #include "haptics/joystick_reports.h"
 #include "haptics/palpate_report.h"
 #include "haptics/pid_reports.h"
@@ -18,11 +19,6 @@ namespace {
 
 bool hasUsage(const HidRecord& record, std::uint32_t usage) {
   return std::find(record.usages.begin(), record.usages.end(), usage) != record.usages.end();
-}
-
-bool isSameDevice(const HidRecord& a, const HidRecord& b) {
-  return a.vendor == b.vendor && a.product == b.product && a.serial == b.serial &&
-         a.interface == b.interface;
 }
 
 std::string nameOf(const HidRecord& record) {
@@ -55,11 +51,7 @@ bool mayOpen(const HidRecord& record) noexcept {
 
 HidOpener openerOf(const HidRecord& record) {
   return [record]() -> std::unique_ptr<HidTransport> {
-    std::string path;
-    for (const HidRecord& candidate : listHidDevices()) {
-      if (!isSameDevice(candidate, record)) continue;
-      if (path.empty() || candidate.path == record.path) path = candidate.path;
-    }
+    const std::string path = hidrawPathOf(record);
     return path.empty() ? nullptr : openHidTransport(path);
   };
 }
