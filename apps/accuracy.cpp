@@ -149,9 +149,11 @@ std::vector<File> filesOf(const Options& o) {
   if (!o.csv.empty()) files.emplace_back(o.csv, accuracyCsv);
   if (!o.svg.empty()) files.emplace_back(o.svg, svg);
   if (o.report.empty()) return files;
-  const std::filesystem::path report = o.report;
-  files.emplace_back(std::filesystem::path(report).replace_extension(".csv").string(), accuracyCsv);
-  files.emplace_back(std::filesystem::path(report).replace_extension(".svg").string(), svg);
+  const auto beside = [&o](const char* extension) {
+    return std::filesystem::path(o.report).replace_extension(extension).string();
+  };
+  files.emplace_back(beside(".csv"), accuracyCsv);
+  files.emplace_back(beside(".svg"), svg);
   files.emplace_back(o.report, accuracyPage);
   return files;
 }

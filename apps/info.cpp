@@ -37,15 +37,17 @@ void printSurface(vtkPolyData* surface) {
   }
   const Eigen::Matrix3Xd points = convert::pointsOf(surface);
   const Eigen::Matrix3Xi triangles = convert::trianglesOf(surface);
-  const std::vector<MeshDefect> defects = findMeshDefects(points, triangles);
+  const bool isHalfSpace = convert::fieldString(surface, "GreensFunctionDomain") == "halfspace";
+  const Rims rims = isHalfSpace ? Rims::Allowed : Rims::Refused;
+  const std::vector<MeshDefect> defects = findMeshDefects(points, triangles, 16, rims);
   if (!defects.empty()) {
     printDefects(defects);
     return;
   }
   try {
-    const SurfaceMesh mesh(points, triangles);
-    printRow("bodies", std::to_string(mesh.bodyCount()));
-    printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
+    const SurfaceMesh mesh(points, triangles, rims);
+    printRow(isHalfSpace ? "pieces" : "bodies", std::to_string(mesh.bodyCount()));
+    if (!isHalfSpace) printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
     printRow("area", number(mesh.triangleAreas().sum()));
     printRow("mean edge length", number(mesh.meanEdgeLength()));
     const std::vector<MeshDefect> crossings = findSelfIntersections(mesh);

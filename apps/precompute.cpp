@@ -5,6 +5,8 @@
 #include <vtkBoundaryElementGreensFunctions.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkFiniteElementGreensFunctions.h>
+#include <vtkHalfSpaceGreensFunctions.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -14,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stdexcept>
 
 #include "commands.h"
 #include "subdivision_option.h"
@@ -24,7 +27,7 @@ namespace palpate::app {
 namespace {
 
 struct Options {
-  std::string input, output;
+  std::string input, output, method = "bem";
   SupportOptions support;
   std::string precision = "double", solver = "direct", collocation = "averaged",
               domain = "interior";
@@ -32,6 +35,8 @@ struct Options {
   double tolerance = 0;  // of the error, 0 for none
   int levels = 4, vertices = 3000;
   std::string subdivision = "flat";
+  std::string element = "quadratic";
+  double cellSize = 0;
   bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
   int threads = 0;
@@ -80,12 +85,20 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
 }
 
 void addOptions(CLI::App& command, Options& o) {
-  command.add_option("input", o.input, "A closed triangle surface")->required();
+  command
+      .add_option("input", o.input, "A triangle surface: closed, or flat for a half-space below it")
+      ->required();
   requireWritable(
       command
           .add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
           ->required(),
       "models", ".vtp");
+  command
+      .add_option(
+          "--method", o.method,
+          "bem; fem: tetrahedra inside the surface; or halfspace: all below a flat one, exact")
+      ->check(CLI::IsMember({"bem", "fem", "halfspace"}))
+      ->capture_default_str();
   o.support.addTo(command);
   addAccuracyOptions(command, o);
   command.add_option("--collocation", o.collocation, "averaged, or vertex as in the paper")
@@ -101,6 +114,68 @@ void addOptions(CLI::App& command, Options& o) {
                    "Also responses to tractions on single patches of sharp edges");
   command.add_flag("--raw", o.raw, "Do not symmetrise the compliance");
   command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+  const char* const finite = "Finite elements";
+  command.add_option("--element", o.element, "quadratic, or linear")
+      ->check(CLI::IsMember({"quadratic", "linear"}))
+      ->capture_default_str()
+      ->group(finite);
+  command
+      .add_option(
+          "--cell-size", o.cellSize,
+          "Largest circumradius of the tetrahedra, m; 0: as the surface's triangles ask for")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(finite);
+}
+
+/// Options and the methods that have them.
+struct OptionOf {
+  const char *name, *methods;
+};
+constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
+                                   {"--precision", "bem"},
+                                   {"--integration-tolerance", "bem"},
+                                   {"--solver", "bem"},
+                                   {"--support-patch", "bem"},
+                                   {"--no-estimate", "bem"},
+                                   {"--collocation", "bem"},
+                                   {"--domain", "bem"},
+                                   {"--smooth-angle", "bem fem"},
+                                   {"--patch-columns", "bem fem"},
+                                   {"--element", "fem"},
+                                   {"--cell-size", "fem"}};
+
+void refuseForeignOptions(const CLI::App& command, const Options& o) {
+  for (const OptionOf& option : kOptionsOf)
+    if (std::string(option.methods).find(o.method) == std::string::npos &&
+        command.count(option.name) > 0)
+      throw std::invalid_argument(std::string(option.name) + " makes no sense with --method " +
+                                  o.method + ": leave it out");
+}
+
+void setColumns(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
+  if (o.columns.empty()) return;
+  vtkNew<vtkIdTypeArray> nodes;
+  for (vtkIdType node : o.columns) nodes->InsertNextValue(node);
+  filter->SetColumnNodes(nodes);
+}
+
+vtkSmartPointer<vtkGreensFunctionsAlgorithm> halfSpace(const Options& o) {
+  auto filter = vtkSmartPointer<vtkHalfSpaceGreensFunctions>::New();
+  filter->SetReciprocal(!o.raw);
+  setColumns(filter, o);
+  return filter;
+}
+
+vtkSmartPointer<vtkGreensFunctionsAlgorithm> finiteElements(const Options& o) {
+  auto filter = vtkSmartPointer<vtkFiniteElementGreensFunctions>::New();
+  filter->SetElement(o.element == "quadratic");
+  filter->SetCellSize(o.cellSize);
+  filter->SetReciprocal(!o.raw);
+  filter->SetSmoothAngle(o.smoothAngle);
+  filter->SetPatchColumns(o.patchColumns);
+  setColumns(filter, o);
+  return filter;
 }
 
 void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
@@ -115,14 +190,13 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   if (o.supportPatch) filter->SupportPatchOn();
   filter->SetPatchColumns(o.patchColumns);
   filter->SetNumberOfThreads(o.threads);
-  if (o.columns.empty()) return;
-  vtkNew<vtkIdTypeArray> nodes;
-  for (vtkIdType node : o.columns) nodes->InsertNextValue(node);
-  filter->SetColumnNodes(nodes);
+  setColumns(filter, o);
 }
 
 /// The method as asked for, or one that chooses by tolerance.
-vtkSmartPointer<vtkBoundaryElementGreensFunctions> method(const Options& o) {
+vtkSmartPointer<vtkGreensFunctionsAlgorithm> method(const Options& o) {
+  if (o.method == "halfspace") return halfSpace(o);
+  if (o.method == "fem") return finiteElements(o);
   vtkSmartPointer<vtkBoundaryElementGreensFunctions> filter;
   if (o.tolerance > 0) {
     auto chooser = vtkSmartPointer<vtkToleranceGreensFunctions>::New();
@@ -151,8 +225,12 @@ void printModel(vtkPolyData* model) {
   printRow("condition number", condition < 0 ? "not estimated" : number(condition, 3));
   printErrors(model);
   printRow("reciprocity defect", number(fieldNumber(model, "ReciprocityDefect", -1), 3));
-  printRow("integration defect", number(fieldNumber(model, "RotationDefect", -1), 3));
-  printRow("solver residual", number(fieldNumber(model, "SolverResidual", -1), 3));
+  const auto printMeasured = [&](const char* name, const char* label) {
+    if (const double value = fieldNumber(model, name, -1); value >= 0)
+      printRow(label, number(value, 3));
+  };
+  printMeasured("RotationDefect", "integration defect");
+  printMeasured("SolverResidual", "solver residual");
 }
 
 }  // namespace
@@ -169,13 +247,14 @@ void addPrecompute(CLI::App& program) {
       "--tolerance.\n"
       "  palpate precompute part.stl part.vtp --young 2e9 --poisson 0.35 \\\n"
       "      --fix-half-space 0 0 0.001  0 0 1");
-  command->callback([options] {
+  command->callback([options, command] {
+    refuseForeignOptions(*command, *options);
     vtkNew<vtkReferenceBoundaryConditions> conditions;
     conditions->SetInputData(readSurface(options->input));
     options->support.applyTo(conditions);
-    const auto bem = method(*options);
-    bem->SetInputData(run(conditions));
-    const auto model = run(bem);
+    const auto filter = method(*options);
+    filter->SetInputData(run(conditions));
+    const auto model = run(filter);
     writeSurface(model, options->output);
     printModel(model);
     printWarnings(model);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "contact/unilateral_contact_settings.h"
 #include "library.h"
 #include "terminal.h"
 #include "touch/touch_window.h"
@@ -19,7 +20,6 @@ namespace {
 constexpr double kFarthest = 1e6;
 constexpr double kLargestFriction = 100;
 constexpr double kMostSeconds = 86400;
-constexpr double kMostContacts = 2000;
 constexpr double kMostFrames = 10000;
 
 void run(TouchOptions& options) {
@@ -124,7 +124,7 @@ void addContactOptions(CLI::App& command, TouchOptions& options) {
                                     "Most contacts of a ball or another shape at a time, up to "
                                     "2000; by default as many as the model has vertices, from 128 "
                                     "to 500"),
-                 1, kMostContacts);
+                 1, UnilateralContactSettings::kMostContacts);
   command
       .add_option("--deformation", options.deformation,
                   "Whose displacements are computed: all, visible, contact or none")

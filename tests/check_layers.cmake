@@ -33,7 +33,12 @@ forbid("core includes VTK" FILES ${all_core} PATTERN "${include}vtk")
 forbid("core includes what lies above it" FILES ${all_core} PATTERN "${include}(apps|vtk|picture)/")
 forbid("core prints" FILES ${all_core} PATTERN "std::(cout|cerr|clog)|[^a-z]f?printf[ ]*\\(")
 forbid("a producer of Green's functions includes a consumer" FILES ${core}/bem/*.h ${core}/bem/*.cpp
+  ${core}/halfspace/*.h ${core}/halfspace/*.cpp
   PATTERN "${include}(contact|haptics)/")
+forbid("a producer of Green's functions includes a consumer or another producer"
+  FILES ${core}/fem/*.h ${core}/fem/*.cpp PATTERN "${include}(bem|contact|haptics|halfspace|identification)/")
+forbid("a producer of Green's functions includes another" FILES ${core}/halfspace/*.h ${core}/halfspace/*.cpp
+  PATTERN "${include}(bem|fem|identification)/")
 forbid("contact includes the haptic room" FILES ${core}/contact/*.h ${core}/contact/*.cpp
   PATTERN "${include}haptics/")
 forbid("a consumer of Green's functions includes a producer"
@@ -43,9 +48,9 @@ forbid("Green's functions include a producer or a consumer"
   FILES ${core}/greens/*.h ${core}/greens/*.cpp
   PATTERN "${include}(bem|fem|halfspace|identification|contact|haptics)/")
 forbid("the accuracy room includes another" FILES ${core}/accuracy/*.h ${core}/accuracy/*.cpp
-  PATTERN "${include}(mesh|model|bem|greens|contact|haptics)/")
+  PATTERN "${include}(mesh|model|bem|halfspace|greens|contact|haptics)/")
 forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/mesh/*.cpp
-  PATTERN "${include}(model|bem|greens|contact|haptics)/")
+  PATTERN "${include}(model|bem|halfspace|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
   PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
   EXCEPT "filters/core/(simd/|mesh/(cgal|open_mesh)_surface[.]h|haptics/json_reader[.]h)")
@@ -61,13 +66,15 @@ forbid("OpenMesh's own header leaves its sources" FILES ${all_core}
   PATTERN "${include}mesh/open_mesh_surface[.]h" EXCEPT "filters/core/mesh/.*[.]cpp$")
 forbid("hidapi outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}hidapi" EXCEPT "filters/core/haptics/hidapi_bus[.]cpp$")
+forbid("MUMPS outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
+  PATTERN "${include}.?mumps" EXCEPT "filters/core/linear_algebra/sparse_factorization[.]cpp$")
 forbid("JSON outside the header that reads it"
   FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}nlohmann" EXCEPT "filters/core/haptics/json_reader[.]h$")
 forbid("a filter includes an app" FILES ${SOURCE}/filters/vtk/*.h ${SOURCE}/filters/vtk/*.cxx
   PATTERN "${include}(apps|picture|terminal|commands)")
 forbid("a public VTK header includes the core or Eigen" FILES ${SOURCE}/filters/vtk/*/vtk*.h
-  PATTERN "${include}(Eigen|mesh/|model/|bem/|greens/|contact/|haptics/)")
+  PATTERN "${include}(Eigen|mesh/|model/|bem/|halfspace/|greens/|contact/|haptics/)")
 forbid("batch filters include rendering or devices"
   FILES ${SOURCE}/filters/vtk/elastostatics/* ${SOURCE}/filters/vtk/io/*
   PATTERN "${include}(vtkRender|vtkActor|vtkInteractor|hidapi)")

@@ -10,6 +10,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "greens/dense_greens_functions.h"
+
 namespace palpate::app {
 namespace {
 
@@ -43,9 +45,9 @@ std::string failureOf(const Work& work) {
 
 }  // namespace
 
-BoundaryElementResult computeGreens(const BodyLevels& body, const Query& query,
-                                    const Setting& setting, int threads,
-                                    const ProgressCallback& progress) {
+ComputedGreensFunctions computeGreens(const BodyLevels& body, const Query& query,
+                                      const Setting& setting, int threads,
+                                      const ProgressCallback& progress) {
   BoundaryElementOptions options;
   options.precision = setting.precision;
   options.solver = setting.solver;
@@ -92,7 +94,7 @@ void Sweep::runGroup(Group& group, const Progress& progress) {
   const Setting& first = group.settings.front();
   const double wall = wallSeconds(), begun = now();
   const std::string failure = failureOf([&] {
-    BoundaryElementResult result =
+    ComputedGreensFunctions result =
         computeGreens(body_, query_, first, options_.threads, progress.callback());
     const double seconds = now() - begun;
     const std::size_t peakBytes = result.info.diagnostics.peakBytes;

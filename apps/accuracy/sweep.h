@@ -7,14 +7,15 @@
 #include <map>
 
 #include "accuracy/query.h"
+#include "greens/computed_greens_functions.h"
 
 namespace palpate::app {
 
 /// @param progress  of the computation alone.
 /// @throws as computeBoundaryElementGreensFunctions.
-BoundaryElementResult computeGreens(const BodyLevels& body, const Query& query,
-                                    const Setting& setting, int threads,
-                                    const ProgressCallback& progress);
+ComputedGreensFunctions computeGreens(const BodyLevels& body, const Query& query,
+                                      const Setting& setting, int threads,
+                                      const ProgressCallback& progress);
 
 /// What was seen of a setting.
 struct Sample {

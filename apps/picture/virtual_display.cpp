@@ -15,11 +15,14 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace palpate::app {
 namespace {
 
 constexpr int kStartMilliseconds = 20000;
+
+std::function<void()> lossAction;  // Xlib's handler takes no data
 
 /// A process group of its own: Ctrl-C is the program's, which still needs the server to end well.
 [[noreturn]] void becomeServer(int displayNumberPipe) {
@@ -80,14 +83,17 @@ VirtualDisplay::VirtualDisplay() {
   setenv("DISPLAY", (":" + number).c_str(), 1);
 }
 
-void onDisplayLoss(void (*action)()) {
-  static void (*wanted)() = nullptr;
-  wanted = action;
+OnDisplayLoss::OnDisplayLoss(std::function<void()> action) {
+  lossAction = std::move(action);
   XSetIOErrorHandler([](Display*) -> int {
-    if (wanted) wanted();
+    if (lossAction) lossAction();
     std::cerr << "palpate: the display is gone\n";
     std::_Exit(1);
   });
+}
+
+OnDisplayLoss::~OnDisplayLoss() {
+  lossAction = nullptr;
 }
 
 VirtualDisplay::~VirtualDisplay() {

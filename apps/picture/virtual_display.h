@@ -3,13 +3,22 @@
 
 #pragma once
 
+#include <functional>
+
 namespace palpate::app {
 
 /// Whether DISPLAY names one that lets windows be opened.
 bool hasDisplay();
 
-/// What is done before Xlib ends the process because its display has gone; may be set again.
-void onDisplayLoss(void (*action)());
+/// What is done before Xlib ends the process because its display has gone, while this lives. One at
+/// a time.
+class OnDisplayLoss {
+ public:
+  explicit OnDisplayLoss(std::function<void()> action);
+  ~OnDisplayLoss();
+  OnDisplayLoss(const OnDisplayLoss&) = delete;
+  OnDisplayLoss& operator=(const OnDisplayLoss&) = delete;
+};
 
 /// An X display to draw on: the user's where there is one, else an Xvfb of our own that ends with
 /// this object.

@@ -36,13 +36,15 @@ void require(bool done, vtkInteractorStyleHaptic* style) {
 }
 
 void warnOfUnits(vtkPolyData* model) {
-  if (model->GetLength() > kLongestModel)
+  if (model->GetLength() > kLongestModel) {
     std::cerr << "palpate: warning: the model is " << model->GetLength()
               << " m long: its points are taken for metres; are they millimetres?\n";
+    return;
+  }
   const double* box = model->GetBounds();
   double farthest = 0;
   for (int k = 0; k < 6; ++k) farthest = std::max(farthest, std::abs(box[k]));
-  if (model->GetLength() <= kLongestModel && farthest > SafetySettings().largestReach)
+  if (farthest > SafetySettings().largestReach)
     std::cerr << "palpate: warning: the model lies up to " << farthest
               << " m from the origin: devices reach " << SafetySettings().largestReach
               << " m, unless a scene maps them there\n";
@@ -225,8 +227,22 @@ struct Clock {
   }
 };
 
-/// What stops when the display goes: no force may outlive it, and no recording be lost.
-vtkInteractorStyleHaptic* touching = nullptr;
+/// Until the window is closed, the time is over, or it is interrupted: then all is still written.
+void touchInWindow(Window& window, vtkInteractorStyleHaptic* style, const TouchOptions& options,
+                   Warnings& warnings) {
+  // No force may outlive the display, and no recording be lost with it.
+  const OnDisplayLoss stopping([style] { style->Stop(); });
+  require(style->Start(), style);
+  warnings.print(style);
+  window.lookAt(style);
+  Clock clock{options};
+  vtkNew<vtkCallbackCommand> look;
+  look->SetCallback(&Clock::look);
+  look->SetClientData(&clock);
+  window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
+  window.interactor()->Start();
+  window.interactor()->RemoveObserver(look);
+}
 
 }  // namespace
 
@@ -250,21 +266,8 @@ void runWindow(const TouchOptions& options) {
   window.use(style);
   configure(style, options);
   window.interactor()->Initialize();
-  touching = style;
-  onDisplayLoss([] {
-    if (touching) touching->Stop();
-  });
-  require(style->Start(), style);
   Warnings warnings;
-  warnings.print(style);
-  window.lookAt(style);
-  Clock clock{options};
-  vtkNew<vtkCallbackCommand> look;
-  look->SetCallback(&Clock::look);
-  look->SetClientData(&clock);
-  window.interactor()->AddObserver(vtkCommand::TimerEvent, look);
-  window.interactor()->Start();  // an interruption closes the window, and all is written
-  touching = nullptr;
+  touchInWindow(window, style, options, warnings);
   require(style->Stop(), style);
   warnings.print(style);
   style->Update();

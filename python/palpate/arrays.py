@@ -90,6 +90,10 @@ def greens_functions(model):
     >>> palpate.greens_functions(model).shape, len(palpate.greens_function_nodes(model))
     ((66, 30), 10)
     """
+    if (surface_of(model).GetFieldData().HasArray("GreensFunctionNodes")
+            and not model.GetFieldData().HasArray("GreensFunctions")):
+        raise Error("a half-space's Green's functions are computed when they are asked for: there is no "
+                    "matrix of them")
     return stored(model, "GreensFunctions").T
 
 

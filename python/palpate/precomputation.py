@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Green's functions of bodies."""
 
+import inspect
 import warnings
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 from .arguments import (
     COLLOCATIONS,
@@ -25,6 +26,8 @@ from .arrays import array, as_ids, as_vtk
 from .errors import Error, ModelWarning, run
 from .PalpateElastostatics import (
     vtkBoundaryElementGreensFunctions,
+    vtkFiniteElementGreensFunctions,
+    vtkHalfSpaceGreensFunctions,
     vtkReferenceBoundaryConditions,
     vtkToleranceGreensFunctions,
 )
@@ -38,13 +41,15 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                tolerance=None, columns=None, domain="interior", reciprocal=True,
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
-               estimate_error=True, max_levels=None, max_vertices=None, subdivision=None):
+               estimate_error=True, max_levels=None, max_vertices=None, subdivision=None,
+               volume=None, element="quadratic", cell_size=0.0):
     """Compute the Green's functions of an elastic body from its surface.
 
     Parameters
     ----------
     surface : vtkPolyData
-        A closed triangle surface of n vertices, normals out of what it encloses (see `repair`).
+        A closed triangle surface of n vertices, normals out of what it encloses (see `repair`); for a
+        half-space a flat one, normals out of it.
         Lengths in metres, or in any one unit.
     young : float or None
         Young's modulus, Pa, > 0. None takes the surface's field data.
@@ -52,8 +57,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
     fixed : array_like of bool, optional
         n values, where the body is held. None takes the surface's point array `BoundaryType`.
-    method : {"bem"}
-        Boundary elements.
+    method : {"bem", "fem", "halfspace"}
+        Boundary elements; finite elements in tetrahedra (`columns`, `reciprocal`, `smooth_angle`,
+        `patch_columns`, `progress`, `volume`, `element` and `cell_size` go with it); or the half-space below a flat
+        surface: no support, no matrix, each Green's function computed exactly when it is asked for
+        (`columns`, `reciprocal`, `progress` and `threads` go with it).
     precision : {"double", "mixed", "float"}
         Double; factored in float and refined to 1e-11 in double, which is faster where few columns are
         wanted and slower where all are; or all in float (half the memory and time, about 1e-5).
@@ -99,11 +107,19 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
     subdivision : {"loop", "flat", "curved"}, optional
         As in `refine`, how a `tolerance` refines; flat by default.
+    volume : vtkUnstructuredGrid, optional
+        For finite elements: tetrahedra whose boundary the surface is. Cell arrays may give materials
+        (see `vtkFiniteElementGreensFunctions`). By default the surface is filled with tetrahedra.
+    element : {"quadratic", "linear"}
+        Shape functions of finite elements.
+    cell_size : float
+        Largest circumradius of the tetrahedra that the surface is filled with, m; 0 for as the surface's
+        triangles ask for.
 
     Returns
     -------
     vtkPolyData
-        The surface, refined if a `tolerance` called for it, with its Green's functions, provenance
+        The surface, refined if a `tolerance` called for it, or the boundary of its tetrahedra, with its Green's functions, provenance
         and diagnostics as arrays.
 
     Raises
@@ -128,7 +144,20 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     >>> float(palpate.array(model, "ErrorEstimate")[0]) < 0.2
     True
     """
-    choice(method, {"bem": 0}, "method")
+    choice(method, {"bem": 0, "fem": 1, "halfspace": 2}, "method")
+    settings = dict(
+        precision=precision, tolerance=tolerance, domain=domain, smooth_angle=smooth_angle,
+        collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
+        integration_tolerance=integration_tolerance, support_patch=support_patch,
+        estimate_error=estimate_error, max_levels=max_levels, max_vertices=max_vertices,
+        subdivision=subdivision, volume=volume, element=element, cell_size=cell_size)
+    refuse_foreign(method, settings)
+    if method == "bem":
+        greens = boundary_elements(columns, **settings)
+    elif method == "fem":
+        greens = finite_elements(**settings)
+    else:
+        greens = vtkHalfSpaceGreensFunctions()
     conditions = vtkReferenceBoundaryConditions()
     conditioned = vtkPolyData()
     conditioned.ShallowCopy(surface_of(surface))
@@ -147,6 +176,54 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     if poisson is not None:
         conditions.SetPoissonRatio(number(poisson, "Poisson's ratio"))
 
+    posed = run(conditions)
+    posed.GetPointData().RemoveArray(FIXED)
+    greens.SetInputData(posed)
+    greens.SetReciprocal(flag(reciprocal, "reciprocal"))
+    greens.SetNumberOfThreads(whole_number(threads, "threads", 1024))
+    if columns is not None:
+        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
+        greens.SetColumnNodes(as_ids(nodes, "columns"))
+    model = run(greens, progress_callback(progress))
+    if model.GetFieldData().HasArray("Warnings"):
+        for sentence in array(model, "Warnings"):
+            warnings.warn(sentence, ModelWarning, stacklevel=2)
+    return model
+
+
+METHODS_OF = {
+    "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
+    "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
+}
+
+
+def refuse_foreign(method, settings):
+    """Refuse settings that a method does not have, unless they are at their defaults."""
+    defaults = inspect.signature(precompute).parameters
+    for name, value in settings.items():
+        default = defaults[name].default
+        if method not in METHODS_OF.get(name, ("bem",)) and value is not default and value != default:
+            raise Error(f"{name} makes no sense for method={method!r}: leave it out")
+
+
+def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, **_):
+    """The filter of finite elements, but for its surface and columns."""
+    filter = vtkFiniteElementGreensFunctions()
+    if volume is not None:
+        if not isinstance(volume, vtkUnstructuredGrid):
+            raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")
+        filter.SetInputData(1, volume)
+    filter.SetElement(choice(element, {"linear": 0, "quadratic": 1}, "element"))
+    filter.SetCellSize(number(cell_size, "cell_size"))
+    filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
+    filter.SetPatchColumns(flag(patch_columns, "patch_columns"))
+    return filter
+
+
+def boundary_elements(columns, precision, tolerance, domain, smooth_angle, collocation, patch_columns,
+                      solver, integration_tolerance, support_patch, estimate_error, max_levels,
+                      max_vertices, subdivision, **_):
+    """The filter of boundary elements, or the one that chooses by tolerance, but for its surface."""
     if tolerance is None:
         if not (max_levels is None and max_vertices is None and subdivision is None):
             raise Error("max_levels, max_vertices and subdivision go with a tolerance: give one, or "
@@ -172,20 +249,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
             bem.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
     if support_patch is not None:
         bem.SetSupportPatch(flag(support_patch, "support_patch"))
-    posed = run(conditions)
-    posed.GetPointData().RemoveArray(FIXED)
-    bem.SetInputData(posed)
     bem.SetCollocation(choice(collocation, COLLOCATIONS, "collocation"))
     bem.SetDomain(choice(domain, DOMAINS, "domain"))
-    bem.SetReciprocal(flag(reciprocal, "reciprocal"))
     bem.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     bem.SetPatchColumns(flag(patch_columns, "patch_columns"))
-    bem.SetNumberOfThreads(whole_number(threads, "threads", 1024))
-    if columns is not None:
-        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
-        bem.SetColumnNodes(as_ids(nodes, "columns"))
-    model = run(bem, progress_callback(progress))
-    if model.GetFieldData().HasArray("Warnings"):
-        for sentence in array(model, "Warnings"):
-            warnings.warn(sentence, ModelWarning, stacklevel=2)
-    return model
+    return bem

@@ -38,7 +38,7 @@ constexpr Table3Row kTable3[] = {
 ElasticModel paperModel(const std::string& name, int steps) {
   test::DataModel model = test::readDataModel(name);
   for (int step = 0; step < steps; ++step) {
-    const SubdivisionLevel level = subdivideLoop(model.shape.points, model.shape.triangles);
+    const SubdivisionLevel level = subdivideLoop(*model.shape.mesh());
     model.boundaryTypes = refineBoundaryTypes(level, model.boundaryTypes);
     model.shape = {level.points, level.triangles};
   }
@@ -47,7 +47,7 @@ ElasticModel paperModel(const std::string& name, int steps) {
                       BoundaryConditions(model.boundaryTypes), onePatch);
 }
 
-BoundaryElementResult precompute(const ElasticModel& model) {
+ComputedGreensFunctions precompute(const ElasticModel& model) {
   BoundaryElementOptions options;
   options.threads = 1;
   return computeBoundaryElementGreensFunctions(model, options);

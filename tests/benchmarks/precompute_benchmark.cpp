@@ -21,7 +21,7 @@ void precompute(benchmark::State& state) {
   options.threads = 1;
   const std::size_t before = startPeakMemory();
   for (auto _ : state) {
-    const BoundaryElementResult result = computeBoundaryElementGreensFunctions(model, options);
+    const ComputedGreensFunctions result = computeBoundaryElementGreensFunctions(model, options);
     for (const auto& [stage, seconds] : result.info.diagnostics.seconds)
       state.counters[stage] = seconds;
   }

@@ -115,18 +115,7 @@ TEST_P(ThickSphere, InnerPressureOpensBothSurfacesAsInClosedForm) {
   const auto held = [&](const Eigen::Vector3d& x) { return x.z() > 1.999 || x.x() > 1.95; };
   const ElasticModel model = makeModel(shape, held, 1, nu);
   const auto greens = computeGreens(model, rawWithAllColumns(model));
-  const double a = (1 - 2 * nu) / 7, b = 8 * (1 + nu) / (2 * 7);
-  Eigen::Matrix3Xd exact(3, model.mesh().vertexCount()), given = exact;
-  for (int v = 0; v < exact.cols(); ++v) {
-    const Eigen::Vector3d x = model.mesh().points().col(v);
-    const double r = x.norm();
-    exact.col(v) = (a * r + b / (r * r)) * x / r;
-    given.col(v).setZero();
-    if (model.conditions().isFixed(v))
-      given.col(v) = exact.col(v);
-    else if (r < 1.5)
-      given.col(v) = x;
-  }
+  const auto [exact, given] = thickSphere(model);
   const Eigen::Matrix3Xd solved = solveReferenceProblem(*greens, given);
   const double error =
       relativeError(solved, exact, model, [&](int v) { return !model.conditions().isFixed(v); });

@@ -16,7 +16,7 @@
 namespace palpate::test {
 namespace {
 
-Eigen::MatrixXd matrixOf(const BoundaryElementResult& result) {
+Eigen::MatrixXd matrixOf(const ComputedGreensFunctions& result) {
   const Eigen::Index rows = 3 * result.info.conditions.nodeCount();
   const Eigen::Index columns = 3 * result.info.columnNodes.size();
   if (result.floatMatrix.size() > 0)
@@ -61,30 +61,12 @@ TEST(Columns, ComputedAloneAreThoseOfTheWhole) {
   const Eigen::MatrixXd whole = computeWith(model, rawWithAllColumns(model));
   BoundaryElementOptions options = raw();
   options.columns = {0, 17, 80, model.conditions().fixedNodes().front()};
-  const BoundaryElementResult few = computeBoundaryElementGreensFunctions(model, options);
+  const ComputedGreensFunctions few = computeBoundaryElementGreensFunctions(model, options);
   ASSERT_EQ(few.info.columnNodes.size(), 4u);
   for (std::size_t c = 0; c < 4; ++c)
     EXPECT_LT(difference(matrixOf(few).middleCols(3 * c, 3),
                          whole.middleCols(3 * few.info.columnNodes[c], 3)),
               1e-12);
-}
-
-TEST(Columns, AreTheFreeNodesByDefaultAndSortedWithoutRepetition) {
-  const ElasticModel model = makeModel(icosphere(1), cap, 1, 0.3);
-  EXPECT_EQ(computeBoundaryElementGreensFunctions(model).info.columnNodes,
-            model.conditions().freeNodes());
-  BoundaryElementOptions options;
-  options.columns = {9, 3, 9};
-  EXPECT_EQ(computeBoundaryElementGreensFunctions(model, options).info.columnNodes,
-            (std::vector<int>{3, 9}));
-}
-
-TEST(Columns, OutOfRangeAreRefusedByName) {
-  const ElasticModel model = makeModel(icosphere(1), cap, 1, 0.3);
-  BoundaryElementOptions options;
-  options.columns = {3, 42};
-  EXPECT_TRUE(isRefused<std::invalid_argument>(
-      [&] { computeBoundaryElementGreensFunctions(model, options); }, "node 42"));
 }
 
 TEST(SeveralBodies, ArrangeThemselvesWithoutTouchingEachOther) {

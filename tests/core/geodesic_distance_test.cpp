@@ -57,6 +57,21 @@ TEST(GeodesicDistance, GoesRoundTheEdgesOfABox) {
     }
 }
 
+TEST(GeodesicDistance, OnASheetEndsAtItsRim) {
+  const auto mesh = jitteredPlate(1, 24, 0.2).sheet();
+  const GeodesicDistances distances(*mesh);
+  for (const Eigen::Vector3d& from : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.5, 0.1, 0)}) {
+    const int vertex = vertexNear(*mesh, from);
+    const Eigen::VectorXd d = distances.from(vertex);
+    double square = 0;
+    for (int v = 0; v < mesh->vertexCount(); ++v) {
+      const double exact = (mesh->points().col(v) - mesh->points().col(vertex)).norm();
+      if (v != vertex) square += std::pow(d[v] / exact - 1, 2) / mesh->vertexCount();
+    }
+    EXPECT_LT(std::sqrt(square), 0.05);
+  }
+}
+
 TEST(GeodesicDistance, IsBetweenTheStraightOneAndTheWayAlongEdgesAndKnowsTheFarSideOfAWall) {
   const auto mesh = box({1, 1, 0.05}, {8, 8, 1}).mesh();
   const GeodesicDistances distances(*mesh);

@@ -29,7 +29,7 @@ class RefinedNodule : public testing::Test {
     DataModel data = readDataModel("nodule");
     for (int level = 0; level < 3; ++level) {
       if (level > 0) {
-        const SubdivisionLevel finer = subdivideLoop(data.shape.points, data.shape.triangles);
+        const SubdivisionLevel finer = subdivideLoop(*data.shape.mesh());
         data.boundaryTypes = refineBoundaryTypes(finer, data.boundaryTypes);
         data.shape = {finer.points, finer.triangles};
       }

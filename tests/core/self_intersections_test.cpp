@@ -22,6 +22,14 @@ TEST(SelfIntersections, SoundSurfacesHaveNone) {
     EXPECT_TRUE(crossingsOf(shape).empty());
 }
 
+TEST(SelfIntersections, OfSheetsAreFoundAndTheirRimsAreNone) {
+  EXPECT_TRUE(findSelfIntersections(*jitteredPlate(1, 4, 0.3).sheet()).empty());
+  // Two pieces of one plane that overlap.
+  const Shape piece = plate(1, 2);
+  EXPECT_FALSE(findSelfIntersections(*piece.with(piece.moved({0.3, 0.2, 0})).sheet()).empty());
+  EXPECT_TRUE(findSelfIntersections(*piece.with(piece.moved({1.2, 0, 0})).sheet()).empty());
+}
+
 TEST(SelfIntersections, ANeedleThroughAFaceNamesTheTwoTriangles) {
   // Triangle 3 of the lower tetrahedron, its slope, is pierced by the upper one's tip alone.
   Shape needle = bipyramid(3).scaled(0.01);

@@ -187,7 +187,7 @@ class KidneyArtifacts : public testing::Test {
   static void SetUpTestSuite() {
     DataModel data = readDataModel("kidney");
     for (int step = 0; step < 2; ++step) {
-      const SubdivisionLevel finer = subdivideLoop(data.shape.points, data.shape.triangles);
+      const SubdivisionLevel finer = subdivideLoop(*data.shape.mesh());
       data.boundaryTypes = refineBoundaryTypes(finer, data.boundaryTypes);
       data.shape = {finer.points, finer.triangles};
     }

@@ -32,7 +32,7 @@ class Levels {
   ElasticModel operator()(int level) {
     while (static_cast<int>(meshes_.size()) <= level) {
       const Mesh& last = meshes_.back();
-      const SubdivisionLevel next = subdivideLoop(last.shape.points, last.shape.triangles);
+      const SubdivisionLevel next = subdivideLoop(*last.shape.mesh());
       meshes_.push_back(
           {{next.points, next.triangles}, refineBoundaryTypes(next, last.boundaryTypes)});
     }

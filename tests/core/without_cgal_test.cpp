@@ -8,6 +8,7 @@
 #include "mesh/mesh_defects.h"
 #include "mesh/polygon_file.h"
 #include "mesh/repair.h"
+#include "mesh/tetrahedralization.h"
 #include "mesh/wall_thickness.h"
 #include "support/refusals.h"
 #include "support/soups.h"
@@ -32,6 +33,13 @@ TEST(WithoutCgal, MasksAlongTheSurfaceSayWhatIsMissing) {
       "distances along the surface (geodesic masks) need CGAL, which this build of Palpate was "
       "made without");
   EXPECT_NO_THROW(PressureMasks(*mesh, conditions, MaskShape::Linear, 1));
+}
+
+TEST(WithoutCgal, CuttingIntoTetrahedraSaysWhatIsMissing) {
+  EXPECT_EQ(
+      refusal<std::runtime_error>([] { tetrahedralize(*icosphere(0).mesh()); }),
+      "cutting a surface's inside into tetrahedra needs CGAL, which this build of Palpate was "
+      "made without: give a volume mesh");
 }
 
 TEST(WithoutCgal, WhatCannotBeMeasuredIsMarkedAsUnknown) {

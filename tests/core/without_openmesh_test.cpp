@@ -12,8 +12,8 @@ namespace palpate::test {
 namespace {
 
 TEST(WithoutOpenMesh, RefinementSaysWhatIsMissing) {
-  const Shape shape = icosphere(0);
-  EXPECT_EQ(refusal<std::runtime_error>([&] { subdivideLoop(shape.points, shape.triangles); }),
+  const auto mesh = icosphere(0).mesh();
+  EXPECT_EQ(refusal<std::runtime_error>([&] { subdivideLoop(*mesh); }),
             "refinement needs OpenMesh, which this build of Palpate was made without");
 }
 

@@ -94,7 +94,7 @@ TEST(NearlyIncompressible, ConditionAndCompliancesStayContinuousUpToOneHalf) {
   double lastNu = 0, worst = 0;
   for (const double nu : {0.49, 0.499, 0.4999, 0.499999, 0.5}) {
     const ElasticModel model = makeModel(icosphere(2), cap, 1, nu);
-    const BoundaryElementResult result = computeBoundaryElementGreensFunctions(model, raw());
+    const ComputedGreensFunctions result = computeBoundaryElementGreensFunctions(model, raw());
     worst = std::max(worst, result.info.diagnostics.conditionEstimate);
     const Eigen::MatrixXd matrix = Eigen::Map<const Eigen::MatrixXd>(
         result.matrix.data(), 3 * model.mesh().vertexCount(), 3 * result.info.columnNodes.size());

@@ -160,7 +160,7 @@ TEST(SamePhysics, InSinglePrecisionInAnyUnit) {
   single.precision = Precision::Float;
   const auto matrix = [&](double length, double pressure) {
     // Between free nodes, metres a pascal.
-    const BoundaryElementResult result =
+    const ComputedGreensFunctions result =
         computeBoundaryElementGreensFunctions(inUnits(length, pressure), single);
     Eigen::MatrixXd stored = Eigen::Map<const Eigen::MatrixXf>(
                                  result.floatMatrix.data(), 3 * result.info.conditions.nodeCount(),

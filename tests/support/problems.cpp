@@ -43,6 +43,24 @@ double pointSourceError(const ElasticModel& model) {
                        [&](int v) { return !model.conditions().isFixed(v); });
 }
 
+ThickSphere thickSphere(const ElasticModel& model) {
+  const double nu = model.material().poissonRatio();
+  const double a = (1 - 2 * nu) / 7, b = 8 * (1 + nu) / (2 * 7);
+  ThickSphere field;
+  field.exact.resize(3, model.mesh().vertexCount());
+  field.given.setZero(3, model.mesh().vertexCount());
+  for (int v = 0; v < field.exact.cols(); ++v) {
+    const Eigen::Vector3d x = model.mesh().points().col(v);
+    const double r = x.norm();
+    field.exact.col(v) = (a * r + b / (r * r)) * x / r;
+    if (model.conditions().isFixed(v))
+      field.given.col(v) = field.exact.col(v);
+    else if (r < 1.5)
+      field.given.col(v) = x;
+  }
+  return field;
+}
+
 double patchTestError(const ElasticModel& model, BoundaryElementOptions options) {
   Eigen::Matrix3d gradient;
   gradient << 0.3, 0.5, -0.2, 0.1, -0.4, 0.7, 0.6, 0.2, 0.9;

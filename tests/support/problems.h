@@ -31,6 +31,13 @@ NodalField pointSourceField(const ElasticModel& model);
 /// field.
 double pointSourceError(const ElasticModel& model);
 
+/// On a sphere of radii 1 and 2 under a unit pressure inside, for E = 1: A8. Displacements are
+/// given where it is fixed, tractions elsewhere.
+struct ThickSphere {
+  Eigen::Matrix3Xd exact, given;  ///< 3 by #V: displacement, and what solveReferenceProblem takes
+};
+ThickSphere thickSphere(const ElasticModel& model);
+
 /// The patch test: largest error of the free nodes' displacement, over the largest displacement, of
 /// a body of any polyhedron under uniform stress. The displacement is given at the support, the
 /// tractions on the triangles elsewhere; the discretisation holds the exact solution, integration

@@ -142,6 +142,57 @@ Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions) {
   return fromLists(points, triangles).welded(1e-9 * size.norm());
 }
 
+Shape disc(double radius, int rings) {
+  std::vector<Eigen::Vector3d> points{{0, 0, 0}};
+  std::vector<Eigen::Vector3i> triangles;
+  for (int k = 1; k <= rings; ++k)
+    for (int i = 0; i < 6 * k; ++i) {
+      const double angle = 2 * kPi * i / (6 * k), r = radius * k / rings;
+      points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    }
+  const auto number = [](int k, int i) { return k == 0 ? 0 : 1 + 3 * k * (k - 1) + i % (6 * k); };
+  for (int k = 1; k <= rings; ++k)
+    for (int sector = 0; sector < 6; ++sector)
+      for (int i = 0; i < k; ++i) {
+        const int outer = sector * k + i, inner = sector * (k - 1) + i;
+        triangles.emplace_back(number(k, outer), number(k, outer + 1), number(k - 1, inner));
+        if (i < k - 1)
+          triangles.emplace_back(number(k - 1, inner), number(k, outer + 1),
+                                 number(k - 1, inner + 1));
+      }
+  return fromLists(points, triangles);
+}
+
+Shape plate(double side, int divisions) {
+  return jitteredPlate(side, divisions, 0);
+}
+
+Shape jitteredPlate(double side, int divisions, double amount, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-amount, amount);
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int j = 0; j <= divisions; ++j)
+    for (int i = 0; i <= divisions; ++i) {
+      const bool isInner = i > 0 && j > 0 && i < divisions && j < divisions;
+      const double x = isInner ? move(random) : 0, y = isInner ? move(random) : 0;
+      points.emplace_back(side * ((i + x) / divisions - 0.5), side * ((j + y) / divisions - 0.5),
+                          0);
+    }
+  for (int j = 0; j < divisions; ++j)
+    for (int i = 0; i < divisions; ++i) {
+      const int a = j * (divisions + 1) + i, b = a + 1, c = a + divisions + 1, d = c + 1;
+      if ((i + j) % 2 == 0) {
+        triangles.emplace_back(a, b, d);
+        triangles.emplace_back(a, d, c);
+      } else {
+        triangles.emplace_back(a, b, c);
+        triangles.emplace_back(b, d, c);
+      }
+    }
+  return fromLists(points, triangles);
+}
+
 Shape boxWithNeedles(double width) {
   return box({1, 1, 1}, {4, 4, 4}).mapped([&](const Eigen::Vector3d& x) {
     return Eigen::Vector3d(x.x() == 0.5 ? 0.25 + width : x.x(), x.y(), x.z());

@@ -20,6 +20,10 @@ struct Shape {
   std::shared_ptr<const SurfaceMesh> mesh() const {
     return std::make_shared<SurfaceMesh>(points, triangles);
   }
+  /// One with rims.
+  std::shared_ptr<const SurfaceMesh> sheet() const {
+    return std::make_shared<SurfaceMesh>(points, triangles, Rims::Allowed);
+  }
   Shape scaled(double factor) const { return {points * factor, triangles}; }
   Shape moved(const Eigen::Vector3d& by) const { return {points.colwise() + by, triangles}; }
   Shape flipped() const;
@@ -43,6 +47,16 @@ Shape jitteredSphere(int levels, double amount, unsigned seed = 1);
 /// Box [0, size], each face a grid of squares cut in two, along alternating diagonals.
 /// @param divisions  squares along x, y, z.
 Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions);
+
+/// Flat disc about the origin, its normal z: six triangles round the middle, rings of 6 k vertices.
+Shape disc(double radius, int rings);
+
+/// Flat square about the origin, its normal z, cut in squares and these along alternating
+/// diagonals.
+Shape plate(double side, int divisions);
+
+/// The same with every vertex within it moved by up to `amount` of an edge, at random.
+Shape jitteredPlate(double side, int divisions, double amount, unsigned seed = 1);
 
 /// Unit cube with 4 divisions whose grid lines at x = 1/2 stand this far beside those at 1/4:
 /// between them are needles.

@@ -4,7 +4,6 @@
 #include "bem/boundary_element_method.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,11 +13,13 @@
 #include "bem/body_surface.h"
 #include "bem/error_estimate.h"
 #include "bem/exchanged_system.h"
+#include "greens/dense_greens_functions.h"
 #include "greens/reciprocity.h"
 #include "linear_algebra/dense_lu.h"
 #include "linear_algebra/iterative_solve.h"
 #include "linear_algebra/multi_precision_solve.h"
 #include "parallel.h"
+#include "stopwatch.h"
 
 namespace palpate {
 namespace {
@@ -28,28 +29,6 @@ using bem::CollocationScheme;
 
 constexpr double kAssembleShare = 0.1;  // of the time, for the progress display
 constexpr double kEstimateShare = 0.1;
-
-class Stopwatch {
- public:
-  double seconds() {
-    const auto now = std::chrono::steady_clock::now();
-    const double elapsed = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return elapsed;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-void addSeconds(Diagnostics& diagnostics, const std::string& stage, double seconds) {
-  for (auto& entry : diagnostics.seconds)
-    if (entry.first == stage) {
-      entry.second += seconds;
-      return;
-    }
-  diagnostics.seconds.emplace_back(stage, seconds);
-}
 
 /// Green's functions of all bodies in one matrix of the given storage.
 template <class Scalar>
@@ -238,19 +217,6 @@ class Precomputation {
   AlignedBuffer<Scalar> matrix_;
 };
 
-std::vector<int> checkedColumns(const ElasticModel& model, const std::vector<int>& columns) {
-  if (columns.empty()) return model.conditions().freeNodes();
-  std::vector<int> sorted = columns;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  for (int node : {sorted.front(), sorted.back()})
-    if (node < 0 || node >= model.mesh().vertexCount())
-      throw std::invalid_argument("there is no node " + std::to_string(node) +
-                                  " to compute Green's functions of: the model has " +
-                                  std::to_string(model.mesh().vertexCount()) + " nodes");
-  return sorted;
-}
-
 std::string describeSource(const ElasticModel& model, const BoundaryElementOptions& options) {
   static const char* const precisions[] = {"double", "mixed", "float"};
   std::ostringstream text;
@@ -322,38 +288,17 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
 
 }  // namespace
 
-std::shared_ptr<const GreensFunctions> BoundaryElementResult::view() const {
-  if (floatMatrix.size() > 0)
-    return std::make_shared<DenseGreensFunctions<float>>(info, floatMatrix.data(),
-                                                         floatPatchMatrix.data(), nullptr);
-  return std::make_shared<DenseGreensFunctions<double>>(info, matrix.data(), patchMatrix.data(),
-                                                        nullptr);
-}
-
-std::shared_ptr<const GreensFunctions> BoundaryElementResult::take() {
-  if (floatMatrix.size() > 0)
-    return std::make_shared<DenseGreensFunctions<float>>(std::move(info), std::move(floatMatrix),
-                                                         std::move(floatPatchMatrix));
-  return std::make_shared<DenseGreensFunctions<double>>(std::move(info), std::move(matrix),
-                                                        std::move(patchMatrix));
-}
-
-BoundaryElementResult computeBoundaryElementGreensFunctions(const ElasticModel& model,
-                                                            const BoundaryElementOptions& options,
-                                                            const ProgressCallback& progress) {
+ComputedGreensFunctions computeBoundaryElementGreensFunctions(const ElasticModel& model,
+                                                              const BoundaryElementOptions& options,
+                                                              const ProgressCallback& progress) {
   if (!(options.tolerance >= 0 && options.tolerance < 1))
     throw std::invalid_argument("the integration tolerance must be at least 0 and below 1, not " +
                                 std::to_string(options.tolerance));
   if (options.solver == LinearSolver::Iterative && options.precision != Precision::Double)
     throw std::invalid_argument("the iterative solver works in double precision alone");
-  BoundaryElementResult result;
+  ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
-  info.conditions = model.conditions();
-  info.material = model.material();
-  info.domain = model.domain();
-  info.vertexAreas = model.mesh().vertexAreas();
-  info.columnNodes = checkedColumns(model, options.columns);
-  info.fingerprint = model.fingerprint();
+  info = infoOf(model, options.columns);
   info.source = describeSource(model, options);
   info.diagnostics.quadratureTolerance = options.tolerance;
   info.diagnostics.warnings =

@@ -3,12 +3,10 @@
 
 #pragma once
 
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "bem/collocation.h"
-#include "greens/dense_greens_functions.h"
+#include "greens/computed_greens_functions.h"
 #include "model/elastic_model.h"
 #include "progress.h"
 
@@ -45,25 +43,14 @@ struct BoundaryElementOptions {
   int threads = 0;  ///< 0 for all cores
 };
 
-/// Green's functions of a boundary element model, in double or, for Precision::Float, in float.
-struct BoundaryElementResult {
-  GreensFunctionsInfo info;
-  AlignedBuffer<double> matrix, patchMatrix;  ///< 3 #V by 3 #columns, by 3 #patch columns
-  AlignedBuffer<float> floatMatrix, floatPatchMatrix;
-
-  /// As the interface that consumers use, while this lives and stays as it is.
-  std::shared_ptr<const GreensFunctions> view() const;
-  /// The same for good. Leaves this empty.
-  std::shared_ptr<const GreensFunctions> take();
-};
-
 /// Computes the discrete Green's functions of a homogeneous isotropic body by collocation of the
 /// boundary integral equation with linear displacements and tractions on flat triangles ([JP01]
-/// section 3.4, eq. 8-13). Each body of the model is a system of its own.
+/// section 3.4, eq. 8-13), in double or, for Precision::Float, in float. Each body of the model is
+/// a system of its own.
 /// @throws std::invalid_argument for columns out of range, or an iterative solver in float;
-/// Aborted;
-///         std::bad_alloc; std::runtime_error if a system is singular, or not solved by iterations.
-BoundaryElementResult computeBoundaryElementGreensFunctions(
+///         Aborted; std::bad_alloc; std::runtime_error if a system is singular, or not solved by
+///         iterations.
+ComputedGreensFunctions computeBoundaryElementGreensFunctions(
     const ElasticModel& model, const BoundaryElementOptions& options = {},
     const ProgressCallback& progress = {});
 

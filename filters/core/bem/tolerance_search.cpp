@@ -35,7 +35,7 @@ std::string percent(double share) {
 /// A level of the hierarchy, solved.
 struct Level {
   ElasticModel model;
-  BoundaryElementResult result;
+  ComputedGreensFunctions result;
 
   int vertices() const { return model.mesh().vertexCount(); }
   SpreadLoads loads() const { return errorLoads(model); }

@@ -21,7 +21,7 @@ struct ToleranceLimits {
 /// The cheapest settings found.
 struct ToleranceResult {
   int level = 0;  ///< refinements
-  BoundaryElementResult greens;
+  ComputedGreensFunctions greens;
   std::vector<std::string> steps;  ///< sentences: what was tried, what was chosen and why
 };
 

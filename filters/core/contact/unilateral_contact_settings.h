@@ -27,9 +27,10 @@ struct Obstacle {
 
 struct UnilateralContactSettings {
   /// Most points watched at a time, over all obstacles; 0 for as many as the surface has vertices,
-  /// but at least kLeastChosen and at most kMostChosen, whose matrices take 54 MB.
+  /// but at least kLeastChosen and at most kMostChosen, whose matrices take 54 MB. Who touches may
+  /// ask for up to kMostContacts.
   int capacity = 0;
-  static constexpr int kLeastChosen = 128, kMostChosen = 500;
+  static constexpr int kLeastChosen = 128, kMostChosen = 500, kMostContacts = 2000;
   int capacityFor(int vertices) const {
     return capacity != 0 ? capacity : std::clamp(vertices, kLeastChosen, kMostChosen);
   }

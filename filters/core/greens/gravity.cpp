@@ -27,7 +27,15 @@ Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const Surfac
                                      const Eigen::Vector3d& weight) {
   const GreensFunctionsInfo& info = greens.info();
   if (info.domain != Domain::Interior)
-    throw std::invalid_argument("the space around a surface has no weight that it could bear");
+    throw std::invalid_argument(
+        info.domain == Domain::HalfSpace
+            ? "the weight of a half-space is infinite: it sinks without end under its own"
+            : "the space around a surface has no weight that it could bear");
+  if (!info.homogeneous)
+    throw std::invalid_argument(
+        "the weight of a body of several materials, or of one that is not isotropic, is not known "
+        "from "
+        "its surface");
   const std::vector<int> fixed = info.conditions.fixedNodes(), free = info.conditions.freeNodes();
   greens.requireColumns(nodeList(free));
   const Eigen::Vector3d origin = middleOf(greens, mesh, fixed);

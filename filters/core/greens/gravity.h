@@ -23,8 +23,8 @@ namespace palpate {
 /// @param patches   #F, the smooth patches that the Green's functions were made with.
 /// @param weight    b, density times acceleration, N/m^3.
 /// @return 3 by #nodes, m; zero where fixed.
-/// @throws std::invalid_argument for an exterior domain, for a node whose column is missing, and as
-///         solveFaceTractions.
+/// @throws std::invalid_argument for any but an interior domain, for a body of several or
+///         anisotropic materials, for a node whose column is missing, and as solveFaceTractions.
 Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                      const Eigen::VectorXi& patches, const Eigen::Vector3d& weight);
 

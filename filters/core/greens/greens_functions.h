@@ -33,6 +33,7 @@ struct PatchColumn {
 struct GreensFunctionsInfo {
   BoundaryConditions conditions;  ///< reference BVP, #nodes
   Material material{1, 0};        ///< as served
+  bool homogeneous = true;        ///< of this material all through; else it is a unit of stiffness
   Domain domain = Domain::Interior;
   Eigen::VectorXd vertexAreas;            ///< #nodes, eq. 5
   std::vector<int> columnNodes;           ///< nodes whose columns are stored, in storage order

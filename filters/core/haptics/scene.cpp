@@ -326,7 +326,8 @@ ServoSettings readServo(const Json& value) {
 UnilateralContactSettings readSolver(const Json& value) {
   JsonSection section(value, "solver");
   UnilateralContactSettings solver;
-  readIf(section, "capacity", solver.capacity, readInteger, 1, 2000);
+  readIf(section, "capacity", solver.capacity, readInteger, 1,
+         UnilateralContactSettings::kMostContacts);
   readIf(section, "margin", solver.margin, readNotNegative, kFarthest);
   readIf(section, "linearisations", solver.linearisations, readInteger, 1, 20);
   readIf(section, "tolerance", solver.solver.tolerance, readPositive, 1);

@@ -69,11 +69,19 @@ void requireToFit(double size, const SceneBody& body) {
                               text(diagonal) + " m: are both in metres?");
 }
 
-/// Radius, or the length of a hand; as large as the body for tools that have no size.
-double sizeOf(const SceneTool& tool, const SurfaceMesh* mesh, const SceneBody& body) {
-  if (tool.shape == ToolShape::Sphere || tool.shape == ToolShape::Capsule) return tool.radius;
-  if (tool.shape == ToolShape::Hand) return tool.length;
-  return mesh ? mesh->diagonal() : body.mesh->diagonal();
+/// Radius, of a capsule its length too, or the length of a hand; as large as the body for tools
+/// that have no size.
+std::vector<double> sizesOf(const SceneTool& tool, const SurfaceMesh* mesh, const SceneBody& body) {
+  switch (tool.shape) {
+    case ToolShape::Sphere:
+      return {tool.radius};
+    case ToolShape::Capsule:
+      return {tool.radius, std::max(tool.radius, tool.length)};
+    case ToolShape::Hand:
+      return {tool.length};
+    default:
+      return {mesh ? mesh->diagonal() : body.mesh->diagonal()};
+  }
 }
 
 std::shared_ptr<const TouchTool> toolOf(const SceneTool& tool,
@@ -129,9 +137,8 @@ std::shared_ptr<TouchModel> toolTouch(
   std::vector<std::shared_ptr<const TouchTool>> tools;
   for (std::size_t i = 0; i < scene.tools.size(); ++i) {
     const auto mesh = i < toolMeshes.size() ? toolMeshes[i] : nullptr;
-    requireToFit(sizeOf(scene.tools[i], mesh.get(), bodies[0]), bodies[0]);
-    if (scene.tools[i].shape == ToolShape::Capsule)
-      requireToFit(std::max(scene.tools[i].radius, scene.tools[i].length), bodies[0]);
+    for (double size : sizesOf(scene.tools[i], mesh.get(), bodies[0]))
+      requireToFit(size, bodies[0]);
     tools.push_back(toolOf(scene.tools[i], mesh));
   }
   std::vector<ElasticPartner> partners;

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <stdexcept>
-#include <utility>
 
 #include "mesh/mesh_defects.h"
 #include "mesh/open_mesh_surface.h"
@@ -31,16 +29,17 @@ constexpr double kLeastQuality = 0.3;  // 1 for an equilateral triangle
 /// What of a surface must be kept, and how long its edges were.
 struct Features {
   OpenMesh::FPropHandleT<int> patch;
-  OpenMesh::FPropHandleT<int> part;      ///< smooth patch, support and the rest apart
   OpenMesh::FPropHandleT<bool> support;  ///< all three corners fixed
   OpenMesh::VPropHandleT<int> origin;    ///< number in the surface
   OpenMesh::VPropHandleT<double> size;   ///< mean length of the edges before
   OpenMesh::VPropHandleT<bool> fixed, kept;
 };
 
+/// Between two smooth patches, or the support and the rest.
 bool isRim(const Mesh& mesh, const Features& features, Halfedge edge) {
-  return mesh.property(features.part, mesh.face_handle(edge)) !=
-         mesh.property(features.part, mesh.opposite_face_handle(edge));
+  const Face one = mesh.face_handle(edge), other = mesh.opposite_face_handle(edge);
+  return mesh.property(features.patch, one) != mesh.property(features.patch, other) ||
+         mesh.property(features.support, one) != mesh.property(features.support, other);
 }
 
 /// Corners of rims, where other than two rim edges meet or these turn sharply; and fixed vertices
@@ -130,7 +129,6 @@ Features addFeatures(Mesh& mesh, const std::vector<unsigned char>& boundaryTypes
                      const Eigen::VectorXi& smoothPatches) {
   Features features;
   mesh.add_property(features.patch);
-  mesh.add_property(features.part);
   mesh.add_property(features.support);
   mesh.add_property(features.origin);
   mesh.add_property(features.size);
@@ -143,13 +141,10 @@ Features addFeatures(Mesh& mesh, const std::vector<unsigned char>& boundaryTypes
     for (const auto edge : mesh.voh_range(v)) sum += mesh.calc_edge_length(edge);
     mesh.property(features.size, v) = sum / mesh.valence(v);
   }
-  std::map<std::pair<int, bool>, int> numbers;
   for (const auto f : mesh.faces()) {
     bool support = true;
     for (const auto v : mesh.fv_range(f)) support = support && mesh.property(features.fixed, v);
     mesh.property(features.support, f) = support;
-    const std::pair<int, bool> part(smoothPatches[f.idx()], support);
-    mesh.property(features.part, f) = numbers.try_emplace(part, int(numbers.size())).first->second;
     mesh.property(features.patch, f) = smoothPatches[f.idx()];
   }
   for (const auto v : mesh.vertices())

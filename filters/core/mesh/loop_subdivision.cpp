@@ -9,8 +9,8 @@
 #include <array>
 #include <map>
 
-#include "mesh/mesh_defects.h"
 #include "mesh/open_mesh_surface.h"
+#include "mesh/surface_mesh.h"
 
 namespace palpate {
 namespace {
@@ -53,9 +53,8 @@ std::vector<int> findParentTriangles(const SubdivisionLevel& level,
 
 }  // namespace
 
-SubdivisionLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
-  requireNoDefect(findMeshDefects(points, triangles, 1));
-  OpenMeshSurface mesh = toOpenMesh(points, triangles);
+SubdivisionLevel subdivideLoop(const SurfaceMesh& surface) {
+  OpenMeshSurface mesh = toOpenMesh(surface.points(), surface.triangles());
   OpenMesh::Subdivider::Uniform::LoopT<OpenMeshSurface, double> loop;
   std::size_t valence = 0;
   for (const auto v : mesh.vertices()) valence = std::max<std::size_t>(valence, mesh.valence(v));
@@ -73,8 +72,8 @@ SubdivisionLevel subdivideLoop(const Eigen::Matrix3Xd& points, const Eigen::Matr
     int k = 0;
     for (const auto v : mesh.fv_range(f)) level.triangles(k++, f.idx()) = v.idx();
   }
-  level.parents = findParents(mesh, static_cast<int>(points.cols()));
-  level.parentTriangle = findParentTriangles(level, triangles);
+  level.parents = findParents(mesh, surface.vertexCount());
+  level.parentTriangle = findParentTriangles(level, surface.triangles());
   return level;
 }
 

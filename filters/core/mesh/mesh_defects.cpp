@@ -8,11 +8,11 @@
 #include <cmath>
 #include <Eigen/Geometry>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
 #include "mesh/shells.h"
 #include "mesh/triangle_sides.h"
+#include "sentence.h"
 
 namespace palpate {
 namespace {
@@ -20,13 +20,6 @@ namespace {
 constexpr double kLargestCoordinate = 1e60;
 constexpr double kShortestEdge = 1e-70;
 constexpr double kDegenerateHeight = 1e-10;  // of the triangle's longest edge
-
-template <class... Parts>
-std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
 
 class DefectList {
  public:
@@ -113,7 +106,7 @@ void findDuplicateTriangles(const Eigen::Matrix3Xi& triangles, DefectList& defec
                   sentence("triangle ", keys[i][3], " repeats triangle ", keys[i - 1][3]));
 }
 
-void findEdgeDefects(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
+void findEdgeDefects(const Eigen::Matrix3Xi& triangles, Rims rims, DefectList& defects) {
   forEachEdge(sortedSides(triangles), [&](auto first, auto last) {
     const auto edge = [&, side = *first] {
       return sentence("edge (", side.low, ", ", side.high, ")");
@@ -123,6 +116,8 @@ void findEdgeDefects(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
       defects.add(MeshDefectKind::NonManifoldEdge, f,
                   sentence(edge(), " belongs to ", last - first, " triangles (the first is ", f,
                            "): the surface is not a manifold there"));
+    else if (last - first == 1 && rims == Rims::Allowed)
+      return;
     else if (last - first == 1)
       defects.add(MeshDefectKind::OpenBoundary, f,
                   sentence(edge(), " belongs to triangle ", f,
@@ -134,7 +129,7 @@ void findEdgeDefects(const Eigen::Matrix3Xi& triangles, DefectList& defects) {
   });
 }
 
-/// The triangles around each vertex of a closed edge-manifold must form one fan.
+/// The triangles around each vertex of an edge-manifold must form one fan, which is open on rims.
 void findVertexDefects(int vertexCount, const Eigen::Matrix3Xi& triangles, DefectList& defects) {
   std::vector<int> next(3 * triangles.cols());  // successor of a corner around its vertex
   std::vector<std::array<int, 3>> spokes;       // (vertex, spoke's other end, corner)
@@ -143,18 +138,27 @@ void findVertexDefects(int vertexCount, const Eigen::Matrix3Xi& triangles, Defec
     for (int k = 0; k < 3; ++k)
       spokes.push_back({triangles(k, f), triangles((k + 1) % 3, f), 3 * f + k});
   std::sort(spokes.begin(), spokes.end());
-  std::vector<int> cornerCount(vertexCount, 0), someCorner(vertexCount, -1);
+  std::vector<int> cornerCount(vertexCount, 0), firstCorner(vertexCount, -1);
+  std::vector<bool> isNext(next.size(), false);
   for (int f = 0; f < triangles.cols(); ++f)
     for (int k = 0; k < 3; ++k) {
       const std::array<int, 3> wanted{triangles(k, f), triangles((k + 2) % 3, f), -1};
-      next[3 * f + k] = (*std::lower_bound(spokes.begin(), spokes.end(), wanted))[2];
+      const auto spoke = std::lower_bound(spokes.begin(), spokes.end(), wanted);
+      const bool isRim =
+          spoke == spokes.end() || (*spoke)[0] != wanted[0] || (*spoke)[1] != wanted[1];
+      next[3 * f + k] = isRim ? -1 : (*spoke)[2];
+      if (!isRim) isNext[next[3 * f + k]] = true;
       ++cornerCount[triangles(k, f)];
-      someCorner[triangles(k, f)] = 3 * f + k;
+      firstCorner[triangles(k, f)] = 3 * f + k;
     }
+  for (std::size_t c = 0; c < next.size(); ++c)  // an open fan begins at a rim
+    if (!isNext[c]) firstCorner[triangles.data()[c]] = static_cast<int>(c);
   for (int v = 0; v < vertexCount; ++v) {
-    int length = 1;
-    for (int c = next[someCorner[v]]; c != someCorner[v] && length <= cornerCount[v]; c = next[c])
+    int length = 0;
+    for (int c = firstCorner[v]; c >= 0 && length <= cornerCount[v]; c = next[c]) {
       ++length;
+      if (next[c] == firstCorner[v]) break;
+    }
     if (length != cornerCount[v])
       defects.add(MeshDefectKind::NonManifoldVertex, v,
                   sentence("at vertex ", v, " two sheets of the surface touch in a point"));
@@ -233,8 +237,8 @@ std::vector<int> nearestDuplicates(const Eigen::Matrix3Xd& points, double distan
 }
 
 std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
-                                        const Eigen::Matrix3Xi& triangles,
-                                        std::size_t largestCount) {
+                                        const Eigen::Matrix3Xi& triangles, std::size_t largestCount,
+                                        Rims rims) {
   DefectList defects(largestCount);
   if (points.cols() == 0 || triangles.cols() == 0) {
     defects.add(MeshDefectKind::Empty, -1, "the surface has no triangles");
@@ -246,7 +250,7 @@ std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
   findUnusedAndDuplicateVertices(points, triangles, defects);
   findDuplicateTriangles(triangles, defects);
   if (!defects.empty()) return defects.take();
-  findEdgeDefects(triangles, defects);
+  findEdgeDefects(triangles, rims, defects);
   if (!defects.empty()) return defects.take();
   findVertexDefects(static_cast<int>(points.cols()), triangles, defects);
   return defects.take();

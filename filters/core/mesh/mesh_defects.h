@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/rims.h"
+
 namespace palpate {
 
 class SurfaceMesh;
@@ -52,14 +54,15 @@ bool isUsablePoint(const Eigen::Vector3d& point);
 bool isDegenerateTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c);
 
-/// Finds what keeps triangles from being a closed, oriented manifold without degenerate triangles.
+/// Finds what keeps triangles from being a closed, oriented manifold without degenerate triangles,
+/// or one with rims where these are allowed.
 /// The check stops after the first kind of defect that later kinds depend on.
 /// @param points         3 by #V.
 /// @param triangles      3 by #F.
 /// @param largestCount   at most so many defects are listed.
 std::vector<MeshDefect> findMeshDefects(const Eigen::Matrix3Xd& points,
                                         const Eigen::Matrix3Xi& triangles,
-                                        std::size_t largestCount = 16);
+                                        std::size_t largestCount = 16, Rims rims = Rims::Refused);
 
 struct Shells;
 

@@ -27,6 +27,11 @@ std::vector<std::vector<int>> trianglesByShell(const Eigen::Matrix3Xi& triangles
 
 }  // namespace
 
+double enclosedVolume(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles) {
+  const std::vector<double> volumes = findShells(points, triangles).volume;
+  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+}
+
 double solidAngle(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                   const Eigen::Vector3d& c) {
   const Eigen::Vector3d p = a - x, q = b - x, r = c - x;

@@ -20,8 +20,13 @@ struct Shells {
 };
 
 /// @param points     3 by #V.
-/// @param triangles  3 by #F, a closed, consistently oriented manifold without unused vertices.
+/// @param triangles  3 by #F, a consistently oriented manifold without unused vertices; of volumes
+///                   and nesting only what is closed tells anything.
 Shells findShells(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles);
+
+/// What they enclose all together, cavities taken off.
+/// @param points, triangles  as findShells takes them.
+double enclosedVolume(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xi& triangles);
 
 /// Signed solid angle of triangle (a, b, c) seen from x (van Oosterom & Strackee 1983), in
 /// (-2 pi, 2 pi]; positive where the triangle's normal points away from x.

@@ -22,7 +22,7 @@ SubdivisionLevel subdivide(const SurfaceMesh& mesh, const Eigen::VectorXi& smoot
   if (4L * mesh.triangleCount() > kMostTriangles)
     throw std::invalid_argument("refining " + std::to_string(mesh.triangleCount()) +
                                 " triangles once more would give more than ten million");
-  if (subdivision == Subdivision::Loop) return subdivideLoop(mesh.points(), mesh.triangles());
+  if (subdivision == Subdivision::Loop) return subdivideLoop(mesh);
   return subdivision == Subdivision::Flat ? subdivideFlat(mesh)
                                           : subdivideCurved(mesh, smoothPatches);
 }

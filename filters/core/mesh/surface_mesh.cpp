@@ -8,13 +8,15 @@
 
 #include "mesh/mesh_defects.h"
 #include "mesh/shells.h"
+#include "mesh/triangle_sides.h"
 
 namespace palpate {
 
-SurfaceMesh::SurfaceMesh(Eigen::Matrix3Xd points, Eigen::Matrix3Xi triangles)
-    : points_(std::move(points)), triangles_(std::move(triangles)) {
-  requireNoDefect(findMeshDefects(points_, triangles_, 1));
+SurfaceMesh::SurfaceMesh(Eigen::Matrix3Xd points, Eigen::Matrix3Xi triangles, Rims rims)
+    : rims_(rims), points_(std::move(points)), triangles_(std::move(triangles)) {
+  requireNoDefect(findMeshDefects(points_, triangles_, 1, rims));
   computeGeometry();
+  if (rims == Rims::Allowed) computeMeanEdgeLength();
   computeShells();
 }
 
@@ -50,6 +52,17 @@ void SurfaceMesh::computeGeometry() {
     for (int k = 0; k < 3; ++k) incident_[fill[triangles_(k, f)]++] = f;
 }
 
+/// Where edges of rims are met from one side alone.
+void SurfaceMesh::computeMeanEdgeLength() {
+  double sum = 0;
+  int count = 0;
+  forEachEdge(sortedSides(triangles_), [&](auto first, auto) {
+    sum += (points_.col(first->high) - points_.col(first->low)).norm();
+    ++count;
+  });
+  meanEdgeLength_ = sum / count;
+}
+
 double SurfaceMesh::longestEdge(int triangle) const {
   double longest = 0;
   for (int k = 0; k < 3; ++k) {
@@ -61,10 +74,10 @@ double SurfaceMesh::longestEdge(int triangle) const {
 
 void SurfaceMesh::computeShells() {
   const Shells shells = findShells(points_, triangles_);
-  requireNoDefect(findOrientationDefects(shells, 1));
+  if (rims_ == Rims::Refused) requireNoDefect(findOrientationDefects(shells, 1));
   vertexShell_ = shells.ofVertex;
   for (int s = 0; s < shells.count(); ++s) {
-    const bool cavity = shells.depth[s] % 2 == 1;
+    const bool cavity = rims_ == Rims::Refused && shells.depth[s] % 2 == 1;
     shellIsCavity_.push_back(cavity);
     shellBody_.push_back(cavity ? -1 : bodyCount_++);
   }

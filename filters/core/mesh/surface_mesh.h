@@ -7,9 +7,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mesh/rims.h"
+
 namespace palpate {
 
-/// A closed, oriented triangle surface: the boundary of one or several elastic bodies.
+/// A closed, oriented triangle surface: the boundary of one or several elastic bodies. Where rims
+/// are allowed it is a sheet of one or several pieces, open or closed, each a body of its own.
 ///
 /// A *shell* is a connected component of the surface. A shell nested in another bounds a cavity and
 /// points inwards (out of the material); a shell nested in a cavity is a body of its own. A *body*
@@ -20,9 +23,12 @@ class SurfaceMesh {
  public:
   /// @param points     3 by #V, coordinates in metres (or any one unit of length).
   /// @param triangles  3 by #F, vertex indices, counter-clockwise seen from outside the material.
-  /// @throws std::invalid_argument naming the first defect that `findMeshDefects` or
+  /// @throws std::invalid_argument naming the first defect that `findMeshDefects` or, without rims,
   ///         `findOrientationDefects` reports.
-  SurfaceMesh(Eigen::Matrix3Xd points, Eigen::Matrix3Xi triangles);
+  SurfaceMesh(Eigen::Matrix3Xd points, Eigen::Matrix3Xi triangles, Rims rims = Rims::Refused);
+
+  /// As constructed.
+  Rims rims() const { return rims_; }
 
   int vertexCount() const { return static_cast<int>(points_.cols()); }
   int triangleCount() const { return static_cast<int>(triangles_.cols()); }
@@ -66,8 +72,10 @@ class SurfaceMesh {
 
  private:
   void computeGeometry();
+  void computeMeanEdgeLength();
   void computeShells();
 
+  Rims rims_;
   Eigen::Matrix3Xd points_;
   Eigen::Matrix3Xi triangles_;
   Eigen::VectorXd vertexAreas_, triangleAreas_;

@@ -8,6 +8,11 @@
 #include "mesh/triangle_sides.h"
 
 namespace palpate {
+namespace {
+
+constexpr double kNoWay = 1e-12;  // of a triangle's size: what rounding may move at a corner
+
+}  // namespace
 
 SurfaceWalk::SurfaceWalk(std::shared_ptr<const SurfaceMesh> mesh)
     : mesh_(std::move(mesh)), across_(3 * mesh_->triangleCount()) {
@@ -17,7 +22,8 @@ SurfaceWalk::SurfaceWalk(std::shared_ptr<const SurfaceMesh> mesh)
       v = mesh_->triangles()(++corner, side.triangle);
     return Side{side.triangle, corner};
   };
-  forEachEdge(sortedSides(mesh_->triangles()), [&](auto first, auto) {
+  forEachEdge(sortedSides(mesh_->triangles()), [&](auto first, auto last) {
+    if (last - first < 2) return;  // a rim
     const Side one = opposite(first[0]), other = opposite(first[1]);
     across_[3 * one.triangle + one.corner] = other;
     across_[3 * other.triangle + other.corner] = one;
@@ -65,6 +71,12 @@ Eigen::Vector3d SurfaceWalk::step(Walker& walker) const noexcept {
   }
   const Side beyond = across_[3 * triangle + exit];
   const Eigen::Vector3d edge = (corner(exit + 2) - corner(exit + 1)).normalized();
+  const bool hasMoved = fraction * walker.ahead.norm() > kNoWay * std::sqrt(doubleArea);
+  if (beyond.triangle < 0) {
+    meetRim(walker, exit, end, fraction, hasMoved);
+    return end;
+  }
+  walker.isCornered = walker.isCornered && !hasMoved;
   const Eigen::Vector3d left = (1 - fraction) * walker.ahead;
   walker.ahead = left.dot(edge) * edge +
                  left.dot(edge.cross(normal)) *
@@ -75,6 +87,24 @@ Eigen::Vector3d SurfaceWalk::step(Walker& walker) const noexcept {
   walker.point.barycentric[(beyond.corner + 2) % 3] = end[(exit + 1) % 3];
   walker.enteredOver = beyond.corner;
   return end;
+}
+
+/// Turns what is left of the way along a rim, or ends it where it leads out over a corner twice.
+void SurfaceWalk::meetRim(Walker& walker, int exit, const Eigen::Vector3d& end, double fraction,
+                          bool hasMoved) const noexcept {
+  const int triangle = walker.point.triangle;
+  const Eigen::Vector3i corners = mesh_->triangles().col(triangle);
+  const int low = (exit + 1) % 3, high = (exit + 2) % 3;
+  const Eigen::Vector3d rim =
+      mesh_->points().col(corners[high]) - mesh_->points().col(corners[low]);
+  const double length = rim.norm(), along = walker.ahead.dot(rim) / length;
+  const bool leadsOut = end[along > 0 ? low : high] <= kNoWay;
+  const bool isEnd = leadsOut && walker.isCornered && !hasMoved;
+  walker.point.barycentric = end;
+  walker.ahead =
+      isEnd ? Eigen::Vector3d::Zero() : Eigen::Vector3d((1 - fraction) * along / length * rim);
+  walker.enteredOver = exit;
+  walker.isCornered = leadsOut;
 }
 
 SurfaceWalk::Walker SurfaceWalk::walk(const SurfacePoint& point, const Eigen::Vector3d& way,

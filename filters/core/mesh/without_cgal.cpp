@@ -10,6 +10,7 @@
 #include "mesh/polygon_file.h"
 #include "mesh/remeshing.h"
 #include "mesh/repair.h"
+#include "mesh/tetrahedralization.h"
 #include "mesh/triangle_tree.h"
 #include "mesh/wall_thickness.h"
 
@@ -40,6 +41,12 @@ RemeshedSurface remeshIsotropic(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&
                                 const std::vector<unsigned char>&, const Eigen::VectorXi&, double,
                                 int, const ProgressCallback&) {
   throw std::runtime_error("remeshing needs CGAL, which this build of Palpate was made without");
+}
+
+Tetrahedralization tetrahedralize(const SurfaceMesh&, double, const ProgressCallback&) {
+  throw std::runtime_error(
+      "cutting a surface's inside into tetrahedra needs CGAL, which this build of Palpate was made "
+      "without: give a volume mesh");
 }
 
 struct GeodesicDistances::Shell {};

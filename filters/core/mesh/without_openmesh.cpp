@@ -10,7 +10,7 @@
 
 namespace palpate {
 
-SubdivisionLevel subdivideLoop(const Eigen::Matrix3Xd&, const Eigen::Matrix3Xi&) {
+SubdivisionLevel subdivideLoop(const SurfaceMesh&) {
   throw std::runtime_error(
       "refinement needs OpenMesh, which this build of Palpate was made without");
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "mesh/wall_thickness.h"
+#include "model/plane.h"
 #include "model/support.h"
 
 namespace palpate {
@@ -31,11 +32,24 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
     text << "the model has no free node: there is nothing that could be touched";
   if (!text.str().empty()) throw std::invalid_argument(text.str());
 
+  if (domain_ == Domain::HalfSpace)
+    requireHalfSpace();
+  else if (mesh_->rims() == Rims::Allowed)
+    throw std::invalid_argument("a sheet with rims bounds a half-space alone, no other domain");
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
   for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
     if (mesh_->isCavity(shell))
       throw std::invalid_argument(
           "in an exterior domain no surface may lie inside another: the material is outside all");
+}
+
+void ElasticModel::requireHalfSpace() const {
+  planeOf(*mesh_);
+  const std::vector<int> fixed = conditions_.fixedNodes();
+  if (fixed.empty()) return;
+  throw std::invalid_argument("vertex " + std::to_string(fixed.front()) +
+                              " is fixed: a half-space needs no support and has nothing to hold it "
+                              "by, leave all vertices free");
 }
 
 std::uint64_t ElasticModel::fingerprint() const {
@@ -51,13 +65,13 @@ ElasticModel withSupportPatch(const ElasticModel& model) {
 std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                                const Eigen::VectorXi& smoothPatches, double poissonRatio,
                                Domain domain) {
-  const unsigned char exterior = domain == Domain::Exterior;
+  const auto side = static_cast<unsigned char>(domain);
   return Fingerprint()
       .add(mesh)
       .add(conditions.types().data(), conditions.types().size())
       .add(smoothPatches.data(), sizeof(int) * smoothPatches.size())
       .add(&poissonRatio, sizeof poissonRatio)
-      .add(&exterior, sizeof exterior)
+      .add(&side, sizeof side)
       .value();
 }
 

@@ -16,7 +16,8 @@ namespace palpate {
 /// Which side of the surface the material fills.
 enum class Domain {
   Interior,
-  Exterior,  ///< infinite space around the surface; needs no support, as displacements fade away
+  Exterior,   ///< infinite space around the surface; needs no support, as displacements fade away
+  HalfSpace,  ///< all below the plane that the surface is a part of; needs no support
 };
 
 /// A reference boundary value problem: surface, material, and what is given where ([JP01] section
@@ -26,8 +27,9 @@ class ElasticModel {
   /// @param smoothPatches  #F numbers of the smooth patches across whose borders traction may jump
   ///                       (see findSmoothPatches).
   /// @throws std::invalid_argument if sizes differ, if no node is free, if the support leaves a
-  ///         rigid motion of an interior domain's body free, or if an exterior domain has nested
-  ///         shells.
+  ///         rigid motion of an interior domain's body free, if an exterior domain has nested
+  ///         shells, if a surface of those has rims, or if a half-space has a fixed node or a
+  ///         surface that is not flat (planeOf).
   ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
                Domain domain = Domain::Interior);
@@ -43,6 +45,8 @@ class ElasticModel {
   std::uint64_t fingerprint() const;
 
  private:
+  void requireHalfSpace() const;
+
   std::shared_ptr<const SurfaceMesh> mesh_;
   Material material_;
   BoundaryConditions conditions_;

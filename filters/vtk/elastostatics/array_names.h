@@ -45,9 +45,17 @@ constexpr const char* SmoothAngle = "SmoothAngle"; // degrees; SmoothPatch was f
 constexpr const char* YoungsModulus = "YoungsModulus"; // Pa
 constexpr const char* PoissonRatio = "PoissonRatio";
 
+// Cell data of a volume mesh, the second input of vtkFiniteElementGreensFunctions; YoungsModulus and
+// PoissonRatio, too.
+constexpr const char* TransverselyIsotropicModuli =
+  "TransverselyIsotropicModuli"; // 5: E (Pa), nu along, E, nu across, G along the fibres
+constexpr const char* FibreDirection = "FibreDirection"; // 3, of any length but zero
+constexpr const char* ElasticityTensor = "ElasticityTensor"; // 21, upper triangle row by row, Pa
+
 // Field data: Green's functions.
 /// 3 #points components a tuple, one tuple a column of Xi (three a node of GreensFunctionNodes); rows
-/// are metres where free, pascals where fixed, per pascal of a free or metre of a fixed column.
+/// are metres where free, pascals where fixed, per pascal of a free or metre of a fixed column. There
+/// is no such array where they are computed when asked for, as those of half-spaces are.
 constexpr const char* GreensFunctions = "GreensFunctions"; // double or float
 constexpr const char* GreensFunctionNodes = "GreensFunctionNodes"; // id
 /// The same for tractions on single patches of vertices on sharp edges, and (node, patch) of each.
@@ -56,7 +64,8 @@ constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 
 /// Young's modulus that the stored functions were computed with; YoungsModulus scales what is served.
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
-constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // "interior" or "exterior"
+constexpr const char* HomogeneousMaterial = "HomogeneousMaterial"; // 0, or absent
+constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // interior, exterior, halfspace
 constexpr const char* GreensFunctionsReciprocal = "GreensFunctionsReciprocal"; // uint8
 constexpr const char* MeshFingerprint = "MeshFingerprint";                     // uint64
 
@@ -111,7 +120,7 @@ constexpr const char* Zone = "Zone";           // int, optional: whose force it 
 /// Field data of one computation of Green's functions.
 constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
   PatchGreensFunctions, PatchGreensFunctionNodes, GreensFunctionYoungsModulus, GreensFunctionSource,
-  GreensFunctionDomain, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
+  HomogeneousMaterial, GreensFunctionDomain, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,

@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "greens/dense_greens_functions.h"
+#include "halfspace/half_space_greens_functions.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/smooth_patches.h"
 #include "smooth_patch_arrays.h"
@@ -49,7 +50,7 @@ void addMatrix(vtkPolyData* surface, const char* name, AlignedBuffer<Scalar> mat
 }
 
 void addPatchColumns(
-  vtkPolyData* surface, const GreensFunctionsInfo& info, BoundaryElementResult& result, int rows)
+  vtkPolyData* surface, const GreensFunctionsInfo& info, ComputedGreensFunctions& result, int rows)
 {
   if (info.patchColumns.empty())
   {
@@ -234,36 +235,79 @@ void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
   }
 }
 
+constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace" };
+
 Domain domainOf(vtkPolyData* surface)
 {
-  return fieldString(surface, arrays::GreensFunctionDomain) == "exterior" ? Domain::Exterior
-                                                                          : Domain::Interior;
+  const std::string name = fieldString(surface, arrays::GreensFunctionDomain);
+  for (Domain domain : { Domain::Exterior, Domain::HalfSpace })
+  {
+    if (name == DomainNames[static_cast<int>(domain)])
+    {
+      return domain;
+    }
+  }
+  return Domain::Interior;
+}
+
+/// The Green's functions of the columns, from the matrices that the surface carries.
+std::shared_ptr<const GreensFunctions> storedGreensFunctions(
+  vtkPolyData* surface, GreensFunctionsInfo info)
+{
+  const MatrixView matrix =
+    matrixOf(surface, arrays::GreensFunctions, static_cast<vtkIdType>(info.columnNodes.size()));
+  const MatrixView patchMatrix = matrixOf(
+    surface, arrays::PatchGreensFunctions, static_cast<vtkIdType>(info.patchColumns.size()));
+  if (patchMatrix.array && patchMatrix.array->GetDataType() != matrix.array->GetDataType())
+  {
+    throw std::invalid_argument(std::string("the field arrays '") + arrays::GreensFunctions +
+      "' and '" + arrays::PatchGreensFunctions + "' must both hold doubles or both floats");
+  }
+  auto keeper = std::make_shared<std::pair<MatrixView, MatrixView>>(matrix, patchMatrix);
+  if (matrix.array->GetDataType() == VTK_FLOAT)
+  {
+    return std::make_shared<DenseGreensFunctions<float>>(
+      std::move(info), matrix.data<float>(), patchMatrix.data<float>(), keeper);
+  }
+  return std::make_shared<DenseGreensFunctions<double>>(
+    std::move(info), matrix.data<double>(), patchMatrix.data<double>(), keeper);
 }
 } // namespace
 
-std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface)
+SurfaceMesh meshOf(vtkPolyData* surface)
 {
-  auto mesh = std::make_shared<const SurfaceMesh>(pointsOf(surface), trianglesOf(surface));
+  return SurfaceMesh(pointsOf(surface), trianglesOf(surface),
+    domainOf(surface) == Domain::HalfSpace ? Rims::Allowed : Rims::Refused);
+}
+
+std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface, Rims rims)
+{
+  auto mesh = std::make_shared<const SurfaceMesh>(pointsOf(surface), trianglesOf(surface), rims);
   requireNoDefect(findSelfIntersections(*mesh, 1));
   return mesh;
 }
 
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 {
-  const auto mesh = soundMeshOf(surface);
+  const auto mesh =
+    soundMeshOf(surface, domain == Domain::HalfSpace ? Rims::Allowed : Rims::Refused);
   Eigen::VectorXi patches =
     hasGivenPatches(surface, *mesh) ? storedPatches(surface) : findSmoothPatches(*mesh, smoothAngle);
-  const bool exterior = domain == Domain::Exterior;
+  const bool needsSupport = domain == Domain::Interior;
   return ElasticModel(mesh, materialOf(surface),
-    BoundaryConditions(boundaryTypesOf(surface, exterior)), std::move(patches), domain);
+    BoundaryConditions(boundaryTypesOf(surface, !needsSupport)), std::move(patches), domain);
 }
 
 void setGreensFunctions(
-  vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result)
+  vtkPolyData* surface, const ElasticModel& model, ComputedGreensFunctions result)
 {
   const GreensFunctionsInfo& info = result.info;
   const int rows = 3 * model.mesh().vertexCount();
-  if (result.floatMatrix.size() > 0)
+  if (info.domain == Domain::HalfSpace)
+  {
+    // They are computed when they are asked for.
+  }
+  else if (result.floatMatrix.size() > 0)
   {
     addMatrix<vtkFloatArray>(surface, arrays::GreensFunctions, std::move(result.floatMatrix), rows);
   }
@@ -289,9 +333,13 @@ void setGreensFunctions(
   surface->GetFieldData()->AddArray(reciprocal);
   setFieldNumber(
     surface, arrays::GreensFunctionYoungsModulus, info.material.youngsModulus());
+  if (!info.homogeneous)
+  {
+    setFieldNumber(surface, arrays::HomogeneousMaterial, 0);
+  }
   setFieldStrings(surface, arrays::GreensFunctionSource, { info.source });
   setFieldStrings(surface, arrays::GreensFunctionDomain,
-    { info.domain == Domain::Exterior ? "exterior" : "interior" });
+    { DomainNames[static_cast<int>(info.domain)] });
   addDiagnostics(surface, info.diagnostics);
 
   setBoundaryTypes(surface, model.conditions().types());
@@ -322,19 +370,15 @@ ServedModel servedModelOf(vtkPolyData* surface)
   GreensFunctionsInfo info;
   info.columnNodes = columnNodesOf(surface);
   info.patchColumns = patchColumnsOf(surface);
-  const MatrixView matrix =
-    matrixOf(surface, arrays::GreensFunctions, static_cast<vtkIdType>(info.columnNodes.size()));
-  const MatrixView patchMatrix = matrixOf(
-    surface, arrays::PatchGreensFunctions, static_cast<vtkIdType>(info.patchColumns.size()));
-
-  served.mesh = std::make_shared<const SurfaceMesh>(pointsOf(surface), trianglesOf(surface));
+  info.homogeneous = !hasField(surface, arrays::HomogeneousMaterial);
+  info.domain = domainOf(surface);
+  served.mesh = std::make_shared<const SurfaceMesh>(meshOf(surface));
   served.smoothPatches = storedPatches(surface);
   info.conditions = BoundaryConditions(boundaryTypesOf(surface, false));
   const Material material = materialOf(surface);
   info.material = Material(fieldNumber(surface, arrays::GreensFunctionYoungsModulus,
                              "compute the Green's functions again"),
     material.poissonRatio());
-  info.domain = domainOf(surface);
   info.fingerprint = modelFingerprint(*served.mesh, info.conditions, served.smoothPatches,
     material.poissonRatio(), info.domain);
   requireFingerprint(surface, info.fingerprint);
@@ -343,23 +387,9 @@ ServedModel servedModelOf(vtkPolyData* surface)
     fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
   info.source = fieldString(surface, arrays::GreensFunctionSource);
 
-  if (patchMatrix.array && patchMatrix.array->GetDataType() != matrix.array->GetDataType())
-  {
-    throw std::invalid_argument(std::string("the field arrays '") + arrays::GreensFunctions +
-      "' and '" + arrays::PatchGreensFunctions + "' must both hold doubles or both floats");
-  }
-  auto keeper = std::make_shared<std::pair<MatrixView, MatrixView>>(matrix, patchMatrix);
-  std::shared_ptr<const GreensFunctions> stored;
-  if (matrix.array->GetDataType() == VTK_FLOAT)
-  {
-    stored = std::make_shared<DenseGreensFunctions<float>>(
-      std::move(info), matrix.data<float>(), patchMatrix.data<float>(), keeper);
-  }
-  else
-  {
-    stored = std::make_shared<DenseGreensFunctions<double>>(
-      std::move(info), matrix.data<double>(), patchMatrix.data<double>(), keeper);
-  }
+  const std::shared_ptr<const GreensFunctions> stored = info.domain == Domain::HalfSpace
+    ? std::make_shared<HalfSpaceGreensFunctions>(std::move(info), *served.mesh)
+    : storedGreensFunctions(surface, std::move(info));
   served.greens = material.youngsModulus() == stored->info().material.youngsModulus()
     ? stored
     : stored->withYoungsModulus(material.youngsModulus());

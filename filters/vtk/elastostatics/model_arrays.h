@@ -4,7 +4,7 @@
 #ifndef palpate_model_arrays_h
 #define palpate_model_arrays_h
 
-#include "bem/boundary_element_method.h"
+#include "greens/computed_greens_functions.h"
 #include "greens/greens_functions.h"
 #include "model/elastic_model.h"
 
@@ -17,14 +17,18 @@ class vtkPolyData;
 namespace palpate::convert
 {
 /// A surface checked whole, self-intersections included.
-std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface);
+std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface, Rims rims = Rims::Refused);
+
+/// A surface, with rims only if it carries Green's functions of a half-space.
+SurfaceMesh meshOf(vtkPolyData* surface);
 
 /// The reference problem of a surface with boundary types, smooth patches and material.
 /// @param smoothAngle  for smooth patches where the surface carries no SmoothPatch array.
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain);
 
-/// Adds Green's functions with their provenance and diagnostics. Takes over their memory.
-void setGreensFunctions(vtkPolyData* surface, const ElasticModel& model, BoundaryElementResult result);
+/// Adds Green's functions with their provenance and diagnostics. Takes over their memory. Those of a
+/// half-space have no matrix.
+void setGreensFunctions(vtkPolyData* surface, const ElasticModel& model, ComputedGreensFunctions result);
 
 /// Gives a surface the Green's functions that setGreensFunctions added to another, without copying, in
 /// place of its own.

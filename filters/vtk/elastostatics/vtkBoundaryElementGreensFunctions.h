@@ -7,9 +7,7 @@
  * The input is a closed triangle surface with the point array `BoundaryType` and the field data
  * `YoungsModulus` and `PoissonRatio` (vtkReferenceBoundaryConditions). The output carries, besides, the
  * field arrays `GreensFunctions`, `GreensFunctionNodes`, provenance and diagnostics (array_names.h),
- * and is all that the other filters need: it can be written to a .vtp file and read again. Where only
- * Young's modulus has changed since the last execution, the same arrays are handed on: they hold for
- * `GreensFunctionYoungsModulus`, and who uses them scales them to `YoungsModulus`.
+ * and is all that the other filters need: it can be written to a .vtp file and read again.
  *
  * Method: collocation of the boundary integral equation with linear displacements and tractions on
  * flat triangles; D. L. James and D. K. Pai, "A unified treatment of elastostatic contact simulation
@@ -19,23 +17,19 @@
 #ifndef vtkBoundaryElementGreensFunctions_h
 #define vtkBoundaryElementGreensFunctions_h
 
-#include "vtkElastostaticAlgorithm.h"
-#include "vtkSmartPointer.h" // for the columns
+#include "vtkGreensFunctionsAlgorithm.h"
 
-#include <memory> // for what was computed
-
-class vtkIdTypeArray;
 namespace palpate
 {
 struct BoundaryElementOptions;
-class ElasticModel;
 }
 
-class PALPATEELASTOSTATICS_EXPORT vtkBoundaryElementGreensFunctions : public vtkElastostaticAlgorithm
+class PALPATEELASTOSTATICS_EXPORT vtkBoundaryElementGreensFunctions
+  : public vtkGreensFunctionsAlgorithm
 {
 public:
   static vtkBoundaryElementGreensFunctions* New();
-  vtkTypeMacro(vtkBoundaryElementGreensFunctions, vtkElastostaticAlgorithm);
+  vtkTypeMacro(vtkBoundaryElementGreensFunctions, vtkGreensFunctionsAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -118,16 +112,6 @@ public:
 
   ///@{
   /**
-   * Traction may jump across edges whose triangles' normals differ by more than this angle (degrees,
-   * default 30), unless the input has a cell array `SmoothPatch`. 180 gives one traction a vertex, as
-   * in the paper.
-   */
-  vtkSetMacro(SmoothAngle, double);
-  vtkGetMacro(SmoothAngle, double);
-  ///@}
-
-  ///@{
-  /**
    * Give the support smooth patches of its own, so that its traction ends at its rim and not half an edge
    * beyond: contacts near it, and what the body does as a whole, become several times more accurate.
    * Default off, the paper's one traction a vertex.
@@ -147,47 +131,9 @@ public:
   vtkBooleanMacro(EstimateError, bool);
   ///@}
 
-  ///@{
-  /**
-   * Symmetrise the force compliance between free nodes, so that all that is served comes from one
-   * energy. Default on; off gives the raw discretisation.
-   */
-  vtkSetMacro(Reciprocal, bool);
-  vtkGetMacro(Reciprocal, bool);
-  vtkBooleanMacro(Reciprocal, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Also compute the responses to tractions on single patches of vertices on sharp edges, which
-   * vtkCapacitanceSolve needs for tractions given on triangles. Default off.
-   */
-  vtkSetMacro(PatchColumns, bool);
-  vtkGetMacro(PatchColumns, bool);
-  vtkBooleanMacro(PatchColumns, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Nodes whose Green's functions are computed; null, the default, for all free nodes.
-   */
-  virtual void SetColumnNodes(vtkIdTypeArray* nodes);
-  vtkIdTypeArray* GetColumnNodes();
-  ///@}
-
-  ///@{
-  /**
-   * Number of threads; 0, the default, for all cores.
-   */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  vtkMTimeType GetMTime() override;
-
 protected:
-  vtkBoundaryElementGreensFunctions();
-  ~vtkBoundaryElementGreensFunctions() override;
+  vtkBoundaryElementGreensFunctions() = default;
+  ~vtkBoundaryElementGreensFunctions() override = default;
   void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
 
   /**
@@ -196,16 +142,11 @@ protected:
   palpate::BoundaryElementOptions OptionsFor(vtkIdType vertexCount) const;
 
   /**
-   * The model of a surface, and a mark on the output of whether the surface's smooth patches were given
-   * or found.
+   * The model of a surface.
    */
   palpate::ElasticModel ModelOf(vtkPolyData* surface) const;
-  void MarkPatches(
-    vtkPolyData* surface, const palpate::ElasticModel& model, vtkPolyData* output) const;
 
 private:
-  struct Computed;
-
   vtkBoundaryElementGreensFunctions(const vtkBoundaryElementGreensFunctions&) = delete;
   void operator=(const vtkBoundaryElementGreensFunctions&) = delete;
 
@@ -214,14 +155,8 @@ private:
   int Collocation = AVERAGED;
   int Domain = INTERIOR;
   double Tolerance = 1e-6;
-  double SmoothAngle = 30;
   bool SupportPatch = false;
   bool EstimateError = true;
-  bool Reciprocal = true;
-  bool PatchColumns = false;
-  int NumberOfThreads = 0;
-  vtkSmartPointer<vtkIdTypeArray> ColumnNodes;
-  std::unique_ptr<Computed> Kept;
 };
 
 #endif

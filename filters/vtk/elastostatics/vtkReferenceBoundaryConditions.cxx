@@ -6,8 +6,8 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "mesh/surface_mesh.h"
-#include "smooth_patch_arrays.h"
 #include "model/material.h"
+#include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
@@ -261,8 +261,10 @@ void changeBoundaryTypes(vtkPolyData* surface, const std::vector<unsigned char>&
   if (convert::hasField(surface, palpate::arrays::SmoothAngle) &&
     convert::boundaryTypesOf(surface, true) != types)
   {
-    convert::removeFoundPatches(
-      surface, palpate::SurfaceMesh(convert::pointsOf(surface), convert::trianglesOf(surface)));
+    // Whether the surface may have rims, who computes Green's functions of it says.
+    convert::removeFoundPatches(surface,
+      palpate::SurfaceMesh(
+        convert::pointsOf(surface), convert::trianglesOf(surface), palpate::Rims::Allowed));
   }
   convert::setBoundaryTypes(surface, types);
 }

@@ -116,8 +116,8 @@ void setChange(vtkPolyData* output, const palpate::SurfaceMesh& mesh, const Eige
   vtkPolyData* reference)
 {
   const std::vector<Eigen::Matrix3d> stiffness = elasticStiffnessOf(reference);
-  const palpate::SurfaceLocator locator(std::make_shared<const palpate::SurfaceMesh>(
-    convert::pointsOf(reference), convert::trianglesOf(reference)));
+  const palpate::SurfaceLocator locator(
+    std::make_shared<const palpate::SurfaceMesh>(convert::meshOf(reference)));
   const palpate::StiffnessChange found =
     palpate::compareStiffness(mesh, norms, locator, stiffness);
   convert::setPointNumbers(output, arrays::StiffnessChange, found.change);

@@ -9,8 +9,8 @@
 #include "mesh/subdivision.h"
 #include "mesh/surface_mesh.h"
 #include "model_arrays.h"
-#include "smooth_patch_arrays.h"
 #include "progress.h"
+#include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"

@@ -16,8 +16,6 @@
 #include "vtkSmartPointer.h"
 
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,30 +25,12 @@ vtkStandardNewMacro(vtkToleranceGreensFunctions);
 namespace
 {
 /// A surface of the hierarchy and its model.
-struct Level
+struct SurfaceLevel
 {
   vtkSmartPointer<vtkPolyData> Surface;
   palpate::ElasticModel Model;
 };
-
-double volumeOf(const palpate::SurfaceMesh& mesh)
-{
-  const std::vector<double> volumes = palpate::findShells(mesh.points(), mesh.triangles()).volume;
-  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
-}
 } // namespace
-
-/// What was chosen, and for what but for Young's modulus, which only scales Green's functions.
-struct vtkToleranceGreensFunctions::Chosen
-{
-  std::uint64_t Fingerprint; // of the surface as given
-  vtkMTimeType Time;         // of the filter's settings
-  int Level;
-  std::vector<std::string> Steps;
-  vtkNew<vtkPolyData> Arrays;
-};
-
-vtkToleranceGreensFunctions::~vtkToleranceGreensFunctions() = default;
 
 vtkToleranceGreensFunctions::vtkToleranceGreensFunctions()
 {
@@ -77,8 +57,8 @@ void vtkToleranceGreensFunctions::Compute(
   }
   auto raw = vtkSmartPointer<vtkPolyData>::New();
   raw->ShallowCopy(input);
-  std::vector<Level> levels;
-  const auto at = [&](int level) -> const Level&
+  std::vector<SurfaceLevel> levels;
+  const auto at = [&](int level) -> const SurfaceLevel&
   {
     while (static_cast<int>(levels.size()) <= level)
     {
@@ -90,26 +70,22 @@ void vtkToleranceGreensFunctions::Compute(
     }
     return levels[level];
   };
-  const std::uint64_t fingerprint = at(0).Model.fingerprint();
-  const vtkMTimeType time = this->GetMTime();
-  if (!this->Kept || this->Kept->Fingerprint != fingerprint || this->Kept->Time != time)
-  {
-    this->Kept.reset();
-    std::unique_ptr<Chosen> chosen(new Chosen{ fingerprint, time, 0, {}, {} });
-    palpate::ToleranceResult result = this->Search([&](int level) { return at(level).Model; });
-    chosen->Level = result.level;
-    chosen->Steps = std::move(result.steps);
-    this->WarnOfVolume(at(0).Model, at(result.level).Model, result.greens.info.diagnostics.warnings);
-    convert::setGreensFunctions(chosen->Arrays, at(result.level).Model, std::move(result.greens));
-    this->Kept = std::move(chosen);
-  }
-  const Level& level = at(this->Kept->Level);
+  vtkPolyData* computed = this->Kept(at(0).Model.fingerprint(),
+    [&](vtkPolyData* arrays)
+    {
+      palpate::ToleranceResult result = this->Search([&](int level) { return at(level).Model; });
+      const palpate::ElasticModel& chosen = at(result.level).Model;
+      this->WarnOfVolume(at(0).Model, chosen, result.greens.info.diagnostics.warnings);
+      convert::setGreensFunctions(arrays, chosen, std::move(result.greens));
+      this->Level = result.level;
+      this->Steps = std::move(result.steps);
+    });
+  const SurfaceLevel& level = at(this->Level);
   output->ShallowCopy(level.Surface);
   convert::removeMeshResults(output);
-  convert::shareGreensFunctions(
-    this->Kept->Arrays, output, level.Model.material().youngsModulus());
+  convert::shareGreensFunctions(computed, output, level.Model.material().youngsModulus());
   this->MarkPatches(level.Surface, level.Model, output);
-  convert::setFieldStrings(output, palpate::arrays::ToleranceSteps, this->Kept->Steps);
+  convert::setFieldStrings(output, palpate::arrays::ToleranceSteps, this->Steps);
 }
 
 palpate::ToleranceResult vtkToleranceGreensFunctions::Search(
@@ -125,6 +101,8 @@ palpate::ToleranceResult vtkToleranceGreensFunctions::Search(
 void vtkToleranceGreensFunctions::WarnOfVolume(const palpate::ElasticModel& given,
   const palpate::ElasticModel& refined, std::vector<std::string>& warnings) const
 {
+  const auto volumeOf = [](const palpate::SurfaceMesh& mesh)
+  { return palpate::enclosedVolume(mesh.points(), mesh.triangles()); };
   const double change = volumeOf(refined.mesh()) / volumeOf(given.mesh()) - 1;
   if (std::abs(change) <= this->ErrorTolerance)
   {

@@ -15,9 +15,6 @@
  * array `ToleranceSteps` says what was tried. A tolerance that is out of reach is refused with the error
  * that can be reached.
  *
- * Where only Young's modulus has changed since the last execution, the same Green's functions are
- * handed on.
- *
  * Tolerance and Precision are chosen here; ColumnNodes are refused, as levels have other vertices.
  */
 
@@ -28,7 +25,6 @@
 #include "vtkSurfaceRefinement.h" // for the kinds of subdivision
 
 #include <functional> // for the levels
-#include <memory>     // for what was chosen
 #include <string>     // for warnings
 #include <vector>     // for warnings
 
@@ -79,14 +75,12 @@ public:
 
 protected:
   vtkToleranceGreensFunctions();
-  ~vtkToleranceGreensFunctions() override;
+  ~vtkToleranceGreensFunctions() override = default;
   void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
 
 private:
   vtkToleranceGreensFunctions(const vtkToleranceGreensFunctions&) = delete;
   void operator=(const vtkToleranceGreensFunctions&) = delete;
-
-  struct Chosen;
 
   vtkSmartPointer<vtkPolyData> Refined(vtkPolyData* surface);
   palpate::ToleranceResult Search(const std::function<palpate::ElasticModel(int)>& level);
@@ -97,7 +91,8 @@ private:
   int MaximumNumberOfLevels = 4;
   int MaximumNumberOfVertices = 3000;
   int Subdivision = vtkSurfaceRefinement::FLAT;
-  std::unique_ptr<Chosen> Kept;
+  int Level = 0;                  // that was chosen for the Green's functions that are kept
+  std::vector<std::string> Steps; // by which it was
 };
 
 #endif

@@ -7,6 +7,7 @@
 #include "contact/mask_settings.h"
 #include "contact/torque_mask.h"
 #include "conversion.h"
+#include "model_arrays.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -28,7 +29,7 @@ void vtkVertexPressureMask::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
   namespace convert = palpate::convert;
-  const palpate::SurfaceMesh mesh(convert::pointsOf(input), convert::trianglesOf(input));
+  const palpate::SurfaceMesh mesh = convert::meshOf(input);
   if (this->Vertex < 0 || this->Vertex >= mesh.vertexCount())
   {
     throw std::invalid_argument("there is no vertex " + std::to_string(this->Vertex) +

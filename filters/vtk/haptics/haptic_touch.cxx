@@ -3,6 +3,7 @@
 
 #include "haptic_touch.h"
 
+#include "contact/unilateral_contact_settings.h"
 #include "haptics/evaluation_plan.h"
 #include "haptics/pressing_hand.h"
 
@@ -20,7 +21,6 @@ namespace
 constexpr double MouseSpeed = 3;           ///< diagonals of the body a second
 constexpr double RecordedSeconds = 120;    ///< at most
 constexpr double Unlimited = 1e9;          ///< a mouse hurts nobody
-constexpr int MostContacts = 2000;           ///< as in a scene
 constexpr double Day = 86400;              ///< s
 } // namespace
 
@@ -132,9 +132,10 @@ void HapticTouch::SetRate(double rate)
 
 void HapticTouch::SetContactCapacity(int capacity)
 {
-  if (capacity < 0 || capacity > MostContacts)
+  constexpr int most = UnilateralContactSettings::kMostContacts;
+  if (capacity < 0 || capacity > most)
   {
-    throw std::invalid_argument("there may be from 1 to " + std::to_string(MostContacts) +
+    throw std::invalid_argument("there may be from 1 to " + std::to_string(most) +
       " contacts, or 0 to choose their number by the model, not " + std::to_string(capacity));
   }
   this->Change();

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "bem/boundary_element_method.h"
+#include "greens/dense_greens_functions.h"
 #include "support/problems.h"
 #include "support/shapes.h"
 

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "fem/finite_element_method.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/solid_system.h"
+#include "fem/surface_response.h"
+#include "greens/reciprocity.h"
+#include "stopwatch.h"
+
+namespace palpate {
+namespace {
+
+using fem::LoadHat;
+using fem::WantedColumn;
+
+/// One hat a free vertex, or where tractions on single patches are wanted one a patch that meets at
+/// it.
+std::vector<LoadHat> loadHats(const ElasticModel& model, bool byPatch) {
+  std::vector<LoadHat> hats;
+  for (int v : model.conditions().freeNodes()) {
+    std::set<int> patches;
+    for (int f : model.mesh().trianglesOfVertex(v)) patches.insert(model.smoothPatches()[f]);
+    if (byPatch && patches.size() > 1)
+      for (int patch : patches) hats.push_back({v, patch});
+    else
+      hats.push_back({v, -1});
+  }
+  return hats;
+}
+
+std::vector<WantedColumn> wantedColumns(const GreensFunctionsInfo& info,
+                                        const std::vector<LoadHat>& hats) {
+  std::vector<WantedColumn> wanted;
+  for (int node : info.columnNodes)
+    wanted.push_back(
+        {info.conditions.isFixed(node) ? WantedColumn::Displacement : WantedColumn::Force, node});
+  for (const PatchColumn& column : info.patchColumns)
+    for (std::size_t h = 0; h < hats.size(); ++h)
+      if (hats[h].vertex == column.node && hats[h].patch == column.patch)
+        wanted.push_back({WantedColumn::Traction, static_cast<int>(h)});
+  return wanted;
+}
+
+/// From the units of the system to those of the model: per pascal or metre, as metres or pascals.
+void scaleToModel(double length, double stiffness, const GreensFunctionsInfo& info,
+                  const std::vector<WantedColumn>& wanted, Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd areas = info.vertexAreas / (length * length);
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    const bool ofDisplacement = wanted[c].kind == WantedColumn::Displacement;
+    const double perGiven = ofDisplacement ? 1 / length
+                            : wanted[c].kind == WantedColumn::Force
+                                ? areas[wanted[c].index] / stiffness
+                                : 1 / stiffness;
+    for (int v = 0; v < info.conditions.nodeCount(); ++v)
+      columns.block<3, 3>(3 * v, 3 * c) *=
+          perGiven * (info.conditions.isFixed(v) ? stiffness / areas[v] : length);
+  }
+}
+
+std::string describeSource(const SolidBody& body, SolidElement element) {
+  std::ostringstream text;
+  text << "finite elements (" << (element == SolidElement::Linear ? "linear" : "quadratic")
+       << " tetrahedra, " << body.mesh().cellCount() << " of them";
+  if (body.materialCount() > 1) text << ", " << body.materialCount() << " materials";
+  text << ")";
+  return text.str();
+}
+
+AlignedBuffer<double> taken(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  AlignedBuffer<double> buffer(columns.size());
+  Eigen::Map<Eigen::MatrixXd>(buffer.data(), columns.rows(), columns.cols()) = columns;
+  return buffer;
+}
+
+}  // namespace
+
+ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& model,
+                                                            const SolidBody& body,
+                                                            const FiniteElementOptions& options,
+                                                            const ProgressCallback& callback) {
+  if (model.domain() != Domain::Interior)
+    throw std::invalid_argument("finite elements fill the inside of a surface, no other domain");
+  const Progress progress(callback);
+  ComputedGreensFunctions result;
+  GreensFunctionsInfo& info = result.info;
+  info = infoOf(model, options.columns);
+  info.homogeneous = body.isOf(model.material());
+  info.source = describeSource(body, options.element);
+  info.reciprocal = options.reciprocal;
+
+  Stopwatch watch;
+  std::vector<LoadHat> hats = loadHats(model, options.patchColumns);
+  for (const LoadHat& hat : hats)
+    if (hat.patch >= 0) info.patchColumns.push_back({hat.vertex, hat.patch});
+  const std::vector<WantedColumn> wanted = wantedColumns(info, hats);
+  fem::SolidSystem system(model, body, options.element, std::move(hats), progress.part(0, 0.1));
+  addSeconds(info.diagnostics, "assemble", watch.seconds());
+
+  const fem::MortarShares shares =
+      options.reciprocal ? fem::MortarShares{0.5, 0.5} : fem::MortarShares{0, 1};
+  const double length = system.length, stiffness = system.stiffness;
+  fem::SurfaceResponse response =
+      fem::surfaceResponse(std::move(system), model, wanted, shares, progress.part(0.1, 0.95));
+  scaleToModel(length, stiffness, info, wanted, response.columns);
+  addSeconds(info.diagnostics, "solve", watch.seconds());
+  info.diagnostics.rotationDefect = response.rigidMotionDefect;
+  info.diagnostics.peakBytes = response.peakBytes + sizeof(double) * response.columns.size();
+
+  const Eigen::Index ownColumns = 3 * info.columnNodes.size();
+  result.matrix = taken(response.columns.leftCols(ownColumns));
+  if (!info.patchColumns.empty())
+    result.patchMatrix = taken(response.columns.rightCols(3 * info.patchColumns.size()));
+  info.diagnostics.reciprocityDefect =
+      makeReciprocal(result.matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
+                     options.reciprocal);
+  info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
+  addSeconds(info.diagnostics, "check", watch.seconds());
+  progress.report(1, "done");
+  return result;
+}
+
+}  // namespace palpate

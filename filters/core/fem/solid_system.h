@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <utility>
+#include <vector>
+
+#include "fem/solid_elements.h"
+#include "linear_algebra/sparse_factorization.h"
+#include "model/elastic_model.h"
+#include "progress.h"
+
+namespace palpate::fem {
+
+/// A traction that varies like the hat of a free vertex, on all its triangles or on those of one
+/// smooth patch.
+struct LoadHat {
+  int vertex;
+  int patch;  ///< -1 for all its patches
+};
+
+/// The equations of a solid body without its surface eliminated, in lengths of the body and its
+/// largest stiffness. Unknowns are the displacements u of the nodes that are not held and, in
+/// nearly incompressible cells, the pressures q (Taylor and Hood 1973: quadratic displacements,
+/// pressures linear and continuous within a material); kept, and last, are the tractions t on the
+/// load hats and the displacements w of fixed vertices. A held middle of an edge moves as the mean
+/// of its ends.
+///     [ K    .       -       - ] [ u ]                       K u = L t - K_w w
+///     [ D   -M/lambda        - ] [ q ]      with
+///     [ L^T  .       0       - ] [-t ]      mean displacements m = L^T u + L_w^T w, m^2 m
+///     [ K_w  D_w    L_w   K_ww ] [ w ]      reactions        f = K_w^T u + K_ww w - L_w t
+/// so that the Schur complement of what is kept maps (-t, w) to (m, f).
+struct SolidSystem {
+  /// @param hats  of free vertices.
+  SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
+              std::vector<LoadHat> hats, const Progress& progress);
+
+  int keptCount() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
+  int unknownCount() const { return entries.size - keptCount(); }
+
+  double length, stiffness;        ///< units, m and Pa
+  std::vector<LoadHat> hats;       ///< kept first, three numbers each
+  std::vector<int> fixedVertices;  ///< then these, ascending, likewise
+  int pressureCount = 0;
+  SymmetricEntries entries;  ///< unknowns, then what is kept
+  /// #V by #V: integrals of the products of two vertices' hats, in squared lengths of the body.
+  Eigen::SparseMatrix<double> hatProducts;
+
+ private:
+  /// Where the displacement of a node stands: one place, or halves of two.
+  struct NodePlace {
+    int place[2] = {-1, -1};
+    int count() const { return place[1] < 0 ? 1 : 2; }
+    double weight() const { return place[1] < 0 ? 1 : 0.5; }
+  };
+
+  void placeNodes(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
+  void placePressures(const SolidBody& body);
+  void addCells(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
+                const Progress& progress);
+  void addLoads(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
+  int pressurePlace(const SolidBody& body, int cell, int corner) const;
+
+  std::vector<NodePlace> places_;
+  std::vector<std::pair<int, int>> pressures_;  // (point, group), ascending
+  int firstPressure_ = 0, firstHat_ = 0;
+};
+
+}  // namespace palpate::fem

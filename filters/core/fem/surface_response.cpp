@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "fem/surface_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <utility>
+
+namespace palpate::fem {
+namespace {
+
+/// One column costs about as much as this part of a whole Schur complement's share of it.
+constexpr int kColumnsWorthSchur = 8;
+constexpr int kColumnsAtOnce = 96;
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Every third row of a matrix from a first one on, as a matrix.
+auto component(const Eigen::MatrixXd& matrix, int k) {
+  return Eigen::Map<const Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, 3>>(
+      matrix.data() + k, matrix.rows() / 3, matrix.cols(),
+      Eigen::Stride<Eigen::Dynamic, 3>(matrix.rows(), 3));
+}
+auto component(Eigen::MatrixXd& matrix, int k) {
+  return Eigen::Map<Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, 3>>(
+      matrix.data() + k, matrix.rows() / 3, matrix.cols(),
+      Eigen::Stride<Eigen::Dynamic, 3>(matrix.rows(), 3));
+}
+
+class Condensation {
+ public:
+  Condensation(SolidSystem system, const ElasticModel& model, const MortarShares& shares)
+      : system_(std::move(system)),
+        shares_(shares),
+        mesh_(model.mesh()),
+        freeNumber_(mesh_.vertexCount(), -1),
+        fixedNumber_(mesh_.vertexCount(), -1),
+        free_(model.conditions().freeNodes()),
+        hatRows_(3 * static_cast<int>(system_.hats.size())) {
+    for (std::size_t i = 0; i < free_.size(); ++i) freeNumber_[free_[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < system_.fixedVertices.size(); ++i)
+      fixedNumber_[system_.fixedVertices[i]] = static_cast<int>(i);
+    findProducts();
+  }
+
+  SurfaceResponse run(const std::vector<WantedColumn>& wanted, const Progress& progress) {
+    const int columns = 3 * static_cast<int>(wanted.size());
+    SurfaceResponse response;
+    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), 6);
+    given.bottomRows(3 * system_.fixedVertices.size()) = rigidMotions(system_.fixedVertices);
+    Eigen::MatrixXd answer;
+    progress.report(0, "factor");
+    if (kColumnsWorthSchur * columns < system_.keptCount()) {
+      Eigen::MatrixXd all(system_.keptCount(), columns + 6);
+      all << whatIsGiven(wanted), given;
+      answer = solved(all, response.peakBytes, progress);
+    } else {
+      const SparseFactorization factored(std::move(system_.entries), system_.keptCount(),
+                                         system_.pressureCount == 0);
+      requireInertia(factored);
+      response.peakBytes =
+          factored.peakBytes() + 2 * sizeof(double) * factored.schurComplement().size();
+      progress.report(0.9, "condense");
+      answer.resize(system_.keptCount(), columns + 6);
+      answer.leftCols(columns) = appliedTo(factored.schurComplement(), wanted);
+      answer.rightCols<6>().noalias() = factored.schurComplement() * given;
+    }
+    response.rigidMotionDefect = defectOf(answer.rightCols<6>());
+    answer.conservativeResize(Eigen::NoChange, columns);
+    response.columns = atVertices(answer, wanted);
+    return response;
+  }
+
+ private:
+  void findProducts() {
+    std::vector<Eigen::Triplet<double>> freeFree, freeFixed;
+    for (int column = 0; column < mesh_.vertexCount(); ++column)
+      for (Sparse::InnerIterator entry(system_.hatProducts, column); entry; ++entry) {
+        const int row = freeNumber_[entry.row()];
+        if (row < 0) continue;
+        if (freeNumber_[column] >= 0)
+          freeFree.emplace_back(row, freeNumber_[column], entry.value());
+        else
+          freeFixed.emplace_back(row, fixedNumber_[column], entry.value());
+      }
+    Sparse products(free_.size(), free_.size());
+    products.setFromTriplets(freeFree.begin(), freeFree.end());
+    products_.compute(products);
+    inverseAreas_.resize(free_.size());
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      inverseAreas_[i] = system_.length * system_.length / mesh_.vertexAreas()[free_[i]];
+    toFixed_.resize(free_.size(), system_.fixedVertices.size());
+    toFixed_.setFromTriplets(freeFixed.begin(), freeFixed.end());
+    shared_ = products_.solve(Eigen::MatrixXd(toFixed_));
+  }
+
+  /// 3 #vertices by 6: three translations and three rotations about the middle of the mesh.
+  Eigen::MatrixXd rigidMotions(const std::vector<int>& vertices) const {
+    const Eigen::Vector3d middle = mesh_.points().rowwise().mean();
+    Eigen::MatrixXd motions(3 * vertices.size(), 6);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Eigen::Vector3d x = (mesh_.points().col(vertices[i]) - middle) / system_.length;
+      for (int k = 0; k < 3; ++k) {
+        motions.block<3, 1>(3 * i, k) = Eigen::Vector3d::Unit(k);
+        motions.block<3, 1>(3 * i, 3 + k) = Eigen::Vector3d::Unit(k).cross(x);
+      }
+    }
+    return motions;
+  }
+
+  /// kept by 3 #wanted: (-t, w) of each column.
+  Eigen::MatrixXd whatIsGiven(const std::vector<WantedColumn>& wanted) const {
+    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), 3 * wanted.size());
+    for (std::size_t c = 0; c < wanted.size(); ++c) {
+      const auto set = [&](int row, double value) {
+        for (int k = 0; k < 3; ++k) given(row + k, 3 * c + k) = value;
+      };
+      if (wanted[c].kind == WantedColumn::Traction) {
+        set(3 * wanted[c].index, -1);
+      } else if (wanted[c].kind == WantedColumn::Displacement) {
+        set(hatRows_ + 3 * fixedNumber_[wanted[c].index], 1);
+      } else {
+        const Eigen::VectorXd traction = spreadForce(wanted[c].index);
+        for (std::size_t h = 0; h < system_.hats.size(); ++h)
+          set(3 * static_cast<int>(h), -traction[freeNumber_[system_.hats[h].vertex]]);
+      }
+    }
+    return given;
+  }
+
+  /// R (see computeFiniteElementGreensFunctions) with this share of M^-1, times #free rows.
+  Eigen::MatrixXd weighted(double share, const Eigen::MatrixXd& rows) const {
+    Eigen::MatrixXd result = (1 - share) * (inverseAreas_.asDiagonal() * rows);
+    if (share > 0) result += share * products_.solve(rows);
+    return result;
+  }
+
+  /// The traction at free vertices that a unit force of one is spread to.
+  Eigen::VectorXd spreadForce(int vertex) const {
+    return weighted(shares_.load, Eigen::VectorXd::Unit(free_.size(), freeNumber_[vertex]));
+  }
+
+  /// The Schur complement times whatIsGiven, without forming the latter.
+  Eigen::MatrixXd appliedTo(const Eigen::MatrixXd& schur,
+                            const std::vector<WantedColumn>& wanted) const {
+    Eigen::MatrixXd answer(schur.rows(), 3 * wanted.size());
+    const bool anyForce = std::any_of(wanted.begin(), wanted.end(), [](const WantedColumn& w) {
+      return w.kind == WantedColumn::Force;
+    });
+    for (int k = 0; k < 3; ++k) {
+      Eigen::MatrixXd ofForces;
+      if (anyForce) {
+        ofForces.setZero(free_.size(), schur.rows());
+        for (std::size_t h = 0; h < system_.hats.size(); ++h)
+          ofForces.row(freeNumber_[system_.hats[h].vertex]) += schur.row(3 * h + k);
+        ofForces = weighted(shares_.load, ofForces);
+      }
+      for (std::size_t c = 0; c < wanted.size(); ++c) {
+        const int index = wanted[c].index;
+        if (wanted[c].kind == WantedColumn::Force)
+          answer.col(3 * c + k) = -ofForces.row(freeNumber_[index]).transpose();
+        else if (wanted[c].kind == WantedColumn::Traction)
+          answer.col(3 * c + k) = -schur.col(3 * index + k);
+        else
+          answer.col(3 * c + k) = schur.col(hatRows_ + 3 * fixedNumber_[index] + k);
+      }
+    }
+    return answer;
+  }
+
+  /// The same, column by column, by solving with the unknowns' own matrix.
+  Eigen::MatrixXd solved(const Eigen::MatrixXd& given, std::size_t& peakBytes,
+                         const Progress& progress) {
+    const int unknowns = system_.unknownCount(), kept = system_.keptCount();
+    SymmetricEntries own;
+    own.size = unknowns;
+    std::vector<Eigen::Triplet<double>> coupling, corner;
+    for (std::size_t i = 0; i < system_.entries.value.size(); ++i) {
+      const int row = system_.entries.row[i], column = system_.entries.column[i];
+      const double value = system_.entries.value[i];
+      if (row < unknowns)
+        own.add(row, column, value);
+      else if (column < unknowns)
+        coupling.emplace_back(row - unknowns, column, value);
+      else
+        corner.emplace_back(row - unknowns, column - unknowns, value);
+    }
+    system_.entries = {};
+    Sparse couplings(kept, unknowns), corners(kept, kept);
+    couplings.setFromTriplets(coupling.begin(), coupling.end());
+    corners.setFromTriplets(corner.begin(), corner.end());
+    const SparseFactorization factored(std::move(own), 0, system_.pressureCount == 0);
+    requireInertia(factored);
+    peakBytes = factored.peakBytes() + sizeof(double) * std::size_t(unknowns) * kColumnsAtOnce;
+    Eigen::MatrixXd answer = corners.selfadjointView<Eigen::Lower>() * given;
+    for (Eigen::Index first = 0; first < given.cols(); first += kColumnsAtOnce) {
+      const Eigen::Index count = std::min<Eigen::Index>(kColumnsAtOnce, given.cols() - first);
+      Eigen::MatrixXd columns = couplings.transpose() * given.middleCols(first, count);
+      factored.solve(columns);
+      answer.middleCols(first, count).noalias() -= couplings * columns;
+      progress.report(0.5 + 0.5 * double(first + count) / given.cols(), "solve");
+    }
+    return answer;
+  }
+
+  /// Pressures count as one negative pivot each; a body that is held has no other.
+  void requireInertia(const SparseFactorization& factored) const {
+    if (factored.negativePivots() != system_.pressureCount)
+      throw std::runtime_error("the sparse system is singular: a part of the body is not held");
+  }
+
+  /// 3 #free by any: displacement times hat of each free vertex, integrated.
+  Eigen::MatrixXd meansUnderHats(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * free_.size(), answer.cols());
+    for (std::size_t h = 0; h < system_.hats.size(); ++h)
+      result.middleRows<3>(3 * freeNumber_[system_.hats[h].vertex]) += answer.middleRows<3>(3 * h);
+    return result;
+  }
+
+  /// 3 #free by any: displacements of free vertices while fixed ones rest.
+  Eigen::MatrixXd displacements(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
+    Eigen::MatrixXd result = meansUnderHats(answer);
+    for (int k = 0; k < 3; ++k)
+      component(result, k) = weighted(shares_.displacement, component(result, k));
+    return result;
+  }
+
+  /// By the displacements nearest in the mean square, in which rigid motions are exact.
+  double defectOf(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
+    const Eigen::MatrixXd expected = rigidMotions(free_);
+    const Eigen::MatrixXd held = rigidMotions(system_.fixedVertices);
+    const Eigen::MatrixXd means = meansUnderHats(answer);
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::MatrixXd found =
+          products_.solve(component(means, k) - toFixed_ * component(held, k));
+      largest = std::max(largest, (found - component(expected, k)).cwiseAbs().maxCoeff());
+    }
+    return largest / expected.cwiseAbs().maxCoeff();
+  }
+
+  Eigen::MatrixXd atVertices(const Eigen::MatrixXd& answer,
+                             const std::vector<WantedColumn>& wanted) const {
+    Eigen::MatrixXd columns(3 * mesh_.vertexCount(), answer.cols());
+    const Eigen::MatrixXd free = displacements(answer);
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      columns.middleRows<3>(3 * free_[i]) = free.middleRows<3>(3 * i);
+    for (std::size_t i = 0; i < system_.fixedVertices.size(); ++i)
+      columns.middleRows<3>(3 * system_.fixedVertices[i]) = answer.middleRows<3>(hatRows_ + 3 * i);
+    for (std::size_t c = 0; c < wanted.size(); ++c) shareWithSupport(wanted[c], 3 * c, columns);
+    return columns;
+  }
+
+  /// The hats of free vertices reach onto the support: where a vertex's displacement is the one
+  /// nearest in the mean square, that of the support is taken off, and by Betti's theorem what a
+  /// force puts on the support itself is none of its reaction.
+  void shareWithSupport(const WantedColumn& wanted, int column, Eigen::MatrixXd& columns) const {
+    if (wanted.kind == WantedColumn::Force) {
+      for (std::size_t i = 0; i < system_.fixedVertices.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+          columns(3 * system_.fixedVertices[i] + k, column + k) +=
+              shares_.load * shared_(freeNumber_[wanted.index], i);
+    } else if (wanted.kind == WantedColumn::Displacement) {
+      for (std::size_t i = 0; i < free_.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+          columns(3 * free_[i] + k, column + k) -=
+              shares_.displacement * shared_(i, fixedNumber_[wanted.index]);
+    }
+  }
+
+  SolidSystem system_;
+  MortarShares shares_;
+  const SurfaceMesh& mesh_;
+  std::vector<int> freeNumber_, fixedNumber_, free_;
+  int hatRows_;
+  Eigen::SimplicialLLT<Sparse> products_;
+  Eigen::VectorXd inverseAreas_;
+  Sparse toFixed_;          // products of free vertices' hats with fixed ones'
+  Eigen::MatrixXd shared_;  // M^-1 toFixed_
+};
+
+}  // namespace
+
+SurfaceResponse surfaceResponse(SolidSystem system, const ElasticModel& model,
+                                const std::vector<WantedColumn>& wanted, const MortarShares& shares,
+                                const Progress& progress) {
+  return Condensation(std::move(system), model, shares).run(wanted, progress);
+}
+
+}  // namespace palpate::fem

@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "volume_arrays.h"
+
+#include "array_names.h"
+#include "conversion.h"
+#include "mesh/surface_locator.h"
+
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::convert
+{
+namespace
+{
+bool isTetrahedron(int type)
+{
+  return type == VTK_TETRA || type == VTK_QUADRATIC_TETRA;
+}
+
+bool isSolid(int type)
+{
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(type);
+  return cell->GetCellDimension() == 3;
+}
+
+/// Cells of the grid that are tetrahedra.
+/// @throws for other solid cells.
+std::vector<vtkIdType> tetrahedronCells(vtkUnstructuredGrid* grid)
+{
+  std::vector<vtkIdType> cells;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = grid->GetCellType(cell);
+    if (isTetrahedron(type))
+    {
+      cells.push_back(cell);
+    }
+    else if (isSolid(type))
+    {
+      throw std::invalid_argument("cell " + std::to_string(cell) +
+        " of the volume mesh is no tetrahedron: cut it up (vtkDataSetTriangleFilter)");
+    }
+  }
+  return cells;
+}
+
+constexpr std::size_t LargestMaterial = 21;
+using MaterialKey = std::array<double, LargestMaterial>;
+
+vtkDataArray* cellArray(vtkUnstructuredGrid* grid, const char* name, int components)
+{
+  vtkDataArray* array = grid->GetCellData()->GetArray(name);
+  if (array && array->GetNumberOfComponents() != components)
+  {
+    throw std::invalid_argument(std::string("the cell array '") + name + "' of the volume mesh must have " +
+      std::to_string(components) + " components, not " + std::to_string(array->GetNumberOfComponents()));
+  }
+  return array;
+}
+
+/// Arrays whose components, one after the other, are a material.
+struct MaterialArrays
+{
+  explicit MaterialArrays(vtkUnstructuredGrid* grid)
+    : Isotropic{ cellArray(grid, arrays::YoungsModulus, 1), cellArray(grid, arrays::PoissonRatio, 1) }
+    , Fibres{ cellArray(grid, arrays::TransverselyIsotropicModuli, 5),
+      cellArray(grid, arrays::FibreDirection, 3) }
+    , Tensor(cellArray(grid, arrays::ElasticityTensor, LargestMaterial))
+  {
+    if (!this->Isotropic[0] != !this->Isotropic[1] || !this->Fibres[0] != !this->Fibres[1] ||
+      (this->Isotropic[0] != nullptr) + (this->Fibres[0] != nullptr) + (this->Tensor != nullptr) > 1)
+    {
+      throw std::invalid_argument(
+        "the cells of a volume mesh have either YoungsModulus and PoissonRatio, or "
+        "TransverselyIsotropicModuli and FibreDirection, or ElasticityTensor");
+    }
+  }
+
+  std::vector<vtkDataArray*> Present() const
+  {
+    if (this->Tensor)
+    {
+      return { this->Tensor };
+    }
+    const auto& pair = this->Fibres[0] ? this->Fibres : this->Isotropic;
+    return pair[0] ? std::vector<vtkDataArray*>(pair, pair + 2) : std::vector<vtkDataArray*>();
+  }
+
+  Elasticity Material(const MaterialKey& values) const
+  {
+    if (this->Tensor)
+    {
+      Matrix6d stiffness;
+      for (int row = 0, next = 0; row < 6; ++row)
+      {
+        for (int column = row; column < 6; ++column)
+        {
+          stiffness(row, column) = stiffness(column, row) = values[next++];
+        }
+      }
+      return Elasticity(stiffness);
+    }
+    return this->Fibres[0]
+      ? Elasticity::transverselyIsotropic(
+          { values[5], values[6], values[7] }, values[0], values[1], values[2], values[3], values[4])
+      : Elasticity(palpate::Material(values[0], values[1]));
+  }
+
+  vtkDataArray* Isotropic[2];
+  vtkDataArray* Fibres[2];
+  vtkDataArray* Tensor;
+};
+
+vtkSmartPointer<vtkIdList> cornersAt(const SurfaceMesh& mesh, int triangle)
+{
+  auto corners = vtkSmartPointer<vtkIdList>::New();
+  for (int corner : mesh.triangles().col(triangle))
+  {
+    corners->InsertNextId(corner);
+  }
+  return corners;
+}
+} // namespace
+
+TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid)
+{
+  const std::vector<vtkIdType> cells = tetrahedronCells(grid);
+  std::vector<int> number(grid->GetNumberOfPoints(), -1);
+  Eigen::Matrix4Xi tetrahedra(4, static_cast<Eigen::Index>(cells.size()));
+  vtkNew<vtkIdList> corners;
+  for (std::size_t t = 0; t < cells.size(); ++t)
+  {
+    grid->GetCellPoints(cells[t], corners);
+    for (int k = 0; k < 4; ++k)
+    {
+      const vtkIdType point = k < corners->GetNumberOfIds() ? corners->GetId(k) : -1;
+      if (point < 0 || point >= grid->GetNumberOfPoints())
+      {
+        throw std::invalid_argument(
+          "cell " + std::to_string(cells[t]) + " of the volume mesh refers to a point that it has not");
+      }
+      number[point] = 0;
+      tetrahedra(k, static_cast<Eigen::Index>(t)) = static_cast<int>(point);
+    }
+  }
+  int count = 0;
+  for (int& n : number)
+  {
+    n = n < 0 ? n : count++;
+  }
+  Eigen::Matrix3Xd points(3, count);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    if (number[i] >= 0)
+    {
+      grid->GetPoint(i, points.col(number[i]).data());
+    }
+  }
+  return TetrahedralMesh(
+    std::move(points), tetrahedra.unaryExpr([&](int point) { return number[point]; }));
+}
+
+CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
+{
+  const MaterialArrays found(grid);
+  const std::vector<vtkDataArray*> present = found.Present();
+  if (present.empty())
+  {
+    return { { Elasticity(otherwise) }, {} };
+  }
+  CellMaterials result;
+  std::map<MaterialKey, int> numbers;
+  for (vtkIdType cell : tetrahedronCells(grid))
+  {
+    MaterialKey key{};
+    int next = 0;
+    for (vtkDataArray* array : present)
+    {
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      {
+        key[next++] = array->GetComponent(cell, c);
+      }
+    }
+    for (double value : key)
+    {
+      if (!std::isfinite(value))
+      {
+        throw std::invalid_argument(
+          "the material of cell " + std::to_string(cell) + " of the volume mesh is not finite");
+      }
+    }
+    const auto [entry, isNew] = numbers.emplace(key, static_cast<int>(result.materials.size()));
+    if (isNew)
+    {
+      try
+      {
+        result.materials.push_back(found.Material(key));
+      }
+      catch (const std::invalid_argument& wrong)
+      {
+        throw std::invalid_argument(
+          "cell " + std::to_string(cell) + " of the volume mesh: " + wrong.what());
+      }
+    }
+    result.ofCell.push_back(entry->second);
+  }
+  return result;
+}
+
+std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& materials)
+{
+  Fingerprint fingerprint;
+  fingerprint.add(mesh.points().data(), sizeof(double) * mesh.points().size())
+    .add(mesh.tetrahedra().data(), sizeof(int) * mesh.tetrahedra().size())
+    .add(materials.ofCell.data(), sizeof(int) * materials.ofCell.size());
+  if (materials.ofCell.empty())
+  {
+    return fingerprint.value();
+  }
+  for (const Elasticity& material : materials.materials)
+  {
+    const double compressibility = material.compressibility();
+    fingerprint.add(material.stiffness().data(), sizeof(Matrix6d))
+      .add(&compressibility, sizeof compressibility);
+  }
+  return fingerprint.value();
+}
+
+vtkSmartPointer<vtkPolyData> boundaryOf(
+  const Tetrahedralization& filled, const std::shared_ptr<const SurfaceMesh>& mesh, vtkPolyData* surface)
+{
+  const Eigen::Matrix3Xi& triangles = filled.mesh.boundary();
+  const int kept = mesh->vertexCount(), count = kept + filled.newBoundaryPoints;
+  auto boundary = vtkSmartPointer<vtkPolyData>::New();
+  boundary->ShallowCopy(surface);
+  setSurface(boundary, filled.mesh.points().leftCols(count), triangles);
+
+  const SurfaceLocator locator(mesh);
+  std::vector<unsigned char> types = boundaryTypesOf(surface, false);
+  vtkPointData* points = boundary->GetPointData();
+  points->CopyAllOn();
+  points->InterpolateAllocate(surface->GetPointData(), count);
+  for (int v = 0; v < count; ++v)
+  {
+    if (v < kept)
+    {
+      points->CopyData(surface->GetPointData(), v, v);
+      continue;
+    }
+    const SurfacePoint place = locator.nearest(filled.mesh.points().col(v));
+    double weights[3] = { place.barycentric[0], place.barycentric[1], place.barycentric[2] };
+    points->InterpolatePoint(surface->GetPointData(), v, cornersAt(*mesh, place.triangle), weights);
+    bool isFixed = true;
+    for (int corner : mesh->triangles().col(place.triangle))
+    {
+      isFixed = isFixed && types[corner] != 0;
+    }
+    types.push_back(isFixed);
+  }
+  setBoundaryTypes(boundary, types);
+  vtkCellData* cells = boundary->GetCellData();
+  cells->CopyAllOn();
+  cells->CopyAllocate(surface->GetCellData(), triangles.cols());
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
+  {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (int corner : triangles.col(f))
+    {
+      middle += filled.mesh.points().col(corner) / 3;
+    }
+    cells->CopyData(surface->GetCellData(), locator.nearest(middle).triangle, f);
+  }
+  return boundary;
+}
+} // namespace palpate::convert

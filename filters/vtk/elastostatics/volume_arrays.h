@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef palpate_volume_arrays_h
+#define palpate_volume_arrays_h
+
+#include "mesh/surface_mesh.h"
+#include "mesh/tetrahedralization.h"
+#include "model/elasticity.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+class vtkPolyData;
+class vtkUnstructuredGrid;
+
+/// Tetrahedra and their materials from VTK's data, and surfaces that they bound. Not for wrapping. All
+/// functions throw std::invalid_argument with a sentence for data that cannot be used.
+namespace palpate::convert
+{
+/// The tetrahedra of a grid, its points numbered as they are there but for those of no tetrahedron;
+/// cells of lower dimension, which meshers write too, are left out.
+TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid);
+
+/// Materials as the cell arrays of a grid give them (see vtkFiniteElementGreensFunctions).
+struct CellMaterials
+{
+  std::vector<Elasticity> materials; // each once
+  std::vector<int> ofCell;           // #tetrahedra, empty where there is one material
+};
+/// @param otherwise  where the grid has no such arrays.
+CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise);
+
+/// Hash of a grid's tetrahedra and of the materials that its own arrays give.
+std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& materials);
+
+/// The boundary of what a surface was filled with, with the surface's point and cell data: those of its
+/// vertices, interpolated at new ones, and of the nearest triangle. A new vertex is fixed where all
+/// corners of that triangle are.
+vtkSmartPointer<vtkPolyData> boundaryOf(
+  const Tetrahedralization& filled, const std::shared_ptr<const SurfaceMesh>& mesh, vtkPolyData* surface);
+} // namespace palpate::convert
+
+#endif

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkFiniteElementGreensFunctions.h"
+
+#include "conversion.h"
+#include "fem/finite_element_method.h"
+#include "model_arrays.h"
+#include "volume_arrays.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <optional>
+#include <string>
+
+vtkStandardNewMacro(vtkFiniteElementGreensFunctions);
+
+vtkFiniteElementGreensFunctions::vtkFiniteElementGreensFunctions()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+void vtkFiniteElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Element: " << this->Element << "\n"
+     << indent << "CellSize: " << this->CellSize << "\n";
+}
+
+int vtkFiniteElementGreensFunctions::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+void vtkFiniteElementGreensFunctions::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
+{
+  namespace convert = palpate::convert;
+  const auto modelOf = [&](vtkPolyData* surface)
+  { return convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior); };
+  const palpate::ElasticModel given = modelOf(input);
+  palpate::FiniteElementOptions options;
+  options.element = static_cast<palpate::SolidElement>(this->Element);
+  options.patchColumns = this->PatchColumns;
+  options.reciprocal = this->Reciprocal;
+  const palpate::Progress progress([this](double fraction, const char* stage)
+    { return this->ReportProgress(fraction, stage); });
+  const auto compute = [&](const palpate::ElasticModel& model, const palpate::SolidBody& body,
+                         const std::string& warning, vtkPolyData* arrays)
+  {
+    palpate::ComputedGreensFunctions result = palpate::computeFiniteElementGreensFunctions(
+      model, body, options, progress.part(0.2, 1).callback());
+    if (!warning.empty())
+    {
+      result.info.diagnostics.warnings.push_back(warning);
+    }
+    convert::setGreensFunctions(arrays, model, std::move(result));
+  };
+
+  std::optional<palpate::ElasticModel> ofFilled;
+  vtkPolyData* computed = nullptr;
+  if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(inputs[1]))
+  {
+    options.columns = this->Columns(input->GetNumberOfPoints());
+    palpate::TetrahedralMesh mesh = convert::tetrahedraOf(grid);
+    convert::CellMaterials materials = convert::materialsOf(grid, given.material());
+    // Where cells have their own, the surface's Young's modulus is but a unit, and none that scales them.
+    const double unit = materials.ofCell.empty() ? 0 : given.material().youngsModulus();
+    const std::uint64_t parts[] = { given.fingerprint(), convert::gridFingerprint(mesh, materials) };
+    const std::uint64_t fingerprint =
+      palpate::Fingerprint().add(parts, sizeof parts).add(&unit, sizeof unit).value();
+    computed = this->Kept(fingerprint,
+      [&](vtkPolyData* arrays)
+      {
+        const palpate::SolidBody body(given.mesh(), std::move(mesh), std::move(materials.materials),
+          std::move(materials.ofCell));
+        this->Filled = nullptr;
+        compute(given, body, "", arrays);
+      });
+  }
+  else
+  {
+    computed = this->Kept(given.fingerprint(),
+      [&](vtkPolyData* arrays)
+      {
+        const palpate::Tetrahedralization filled = palpate::tetrahedralize(
+          given.mesh(), this->CellSize, progress.part(0, 0.2).callback());
+        this->Filled = nullptr;
+        std::string warning;
+        if (filled.lostTriangles > 0)
+        {
+          this->Filled = convert::boundaryOf(filled, given.sharedMesh(), input);
+          ofFilled.emplace(modelOf(this->Filled));
+          warning = std::to_string(filled.lostTriangles) + " of " +
+            std::to_string(given.mesh().triangleCount()) +
+            " triangles of the surface are others now, with " +
+            std::to_string(filled.newBoundaryPoints) +
+            " new vertices: those that its filling with tetrahedra has";
+        }
+        options.columns = this->Columns(input->GetNumberOfPoints());
+        const palpate::ElasticModel& model = ofFilled ? *ofFilled : given;
+        compute(model,
+          palpate::SolidBody(
+            model.mesh(), filled.mesh, { palpate::Elasticity(model.material()) }),
+          warning, arrays);
+      });
+  }
+  if (this->Filled)
+  {
+    output->CopyStructure(this->Filled);
+    output->GetPointData()->ShallowCopy(this->Filled->GetPointData());
+    output->GetCellData()->ShallowCopy(this->Filled->GetCellData());
+    convert::removeMeshResults(output);
+  }
+  convert::removeResponses(output);
+  convert::shareGreensFunctions(computed, output, given.material().youngsModulus());
+  if (!this->Filled)
+  {
+    this->MarkPatches(input, given, output);
+    return;
+  }
+  this->MarkPatches(this->Filled, ofFilled ? *ofFilled : modelOf(this->Filled), output);
+}

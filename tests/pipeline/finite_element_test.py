@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finite elements through the filter, files, program and package."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+
+import palpate
+from support.surfaces import PROGRAM, points_of, triangles_of
+
+warnings.simplefilter("ignore", palpate.ModelWarning)  # the surface's triangles are not all kept
+
+YOUNG, POISSON = 8e3, 0.3
+# A cube's six tetrahedra round the diagonal from corner 0 to corner 7 (corners count x, then y, then z).
+KUHN = ((0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7))
+
+
+def bar(divisions=(4, 4, 8), size=(1.0, 1.0, 2.0)):
+    """A box of tetrahedra."""
+    counts = [n + 1 for n in divisions]
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for k in range(counts[2]):
+        for j in range(counts[1]):
+            for i in range(counts[0]):
+                points.InsertNextPoint(*(s * n / d for s, n, d in zip(size, (i, j, k), divisions)))
+    grid.SetPoints(points)
+    for k in range(divisions[2]):
+        for j in range(divisions[1]):
+            for i in range(divisions[0]):
+                corners = [(i + (c & 1)) + counts[0] * ((j + (c >> 1 & 1)) + counts[1] * (k + (c >> 2)))
+                           for c in range(8)]
+                for tetrahedron in KUHN:
+                    grid.InsertNextCell(VTK_TETRA, 4, [corners[c] for c in tetrahedron])
+    return grid
+
+
+def set_cells(grid, **arrays):
+    for name, values in arrays.items():
+        array = numpy_to_vtk(np.array(values, dtype=float), deep=True)
+        array.SetName(name)
+        grid.GetCellData().AddArray(array)
+    return grid
+
+
+def surface_of(grid):
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    return surface.GetOutput()
+
+
+def centres(grid):
+    return np.array([np.mean([grid.GetPoint(grid.GetCell(c).GetPointId(k)) for k in range(4)], axis=0)
+                     for c in range(grid.GetNumberOfCells())])
+
+
+def model_of(grid, young=YOUNG, poisson=POISSON, volume=None, **settings):
+    surface = surface_of(grid)
+    fixed = points_of(surface)[:, 2] < 1e-9
+    return palpate.precompute(surface, young, poisson, fixed=fixed, method="fem", volume=volume or grid,
+                              **settings)
+
+
+def stretch(model):
+    """Mean rise of the top under a unit traction on it."""
+    points = points_of(model)
+    top = np.flatnonzero(points[:, 2] > points[:, 2].max() - 1e-9)
+    corners = triangles_of(model)
+    tractions = np.zeros((len(corners), 3))
+    tractions[np.isin(corners, top).all(axis=1), 2] = 1
+    solved = palpate.solve(model, [], np.zeros((0, 3)), face_tractions=tractions)
+    return palpate.array(solved, "Displacement")[top, 2].mean()
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+
+
+class Package(unittest.TestCase):
+    def test_a_bar_without_contraction_stretches_as_a_rod(self):
+        # nu = 0: a fixed base does not hinder it, u = p L / E exactly.
+        self.assertAlmostEqual(stretch(model_of(bar(), poisson=0.0, patch_columns=True, reciprocal=False)), 2 / YOUNG,
+                               delta=1e-9 * 2 / YOUNG)
+
+    def test_two_layers_of_different_stiffness_stretch_as_springs_in_series(self):
+        grid = bar()
+        soft = centres(grid)[:, 2] > 1
+        set_cells(grid, YoungsModulus=np.where(soft, 1e3, 1e6), PoissonRatio=np.zeros(len(soft)))
+        model = model_of(grid, poisson=0.0, patch_columns=True, reciprocal=False)
+        self.assertAlmostEqual(stretch(model) / (1 / 1e3 + 1 / 1e6), 1, delta=1e-9)
+        self.assertIn("2 materials", palpate.array(model, "GreensFunctionSource")[0])
+
+    def test_fibres_along_the_bar_stiffen_it(self):
+        grid = bar()
+        cells = grid.GetNumberOfCells()
+        set_cells(grid, TransverselyIsotropicModuli=[[9e4, 0, 1e4, 0, 5e3]] * cells,
+                  FibreDirection=[[0, 0, 3]] * cells)
+        self.assertAlmostEqual(stretch(model_of(grid, patch_columns=True, reciprocal=False)) * 9e4 / 2, 1, delta=1e-9)
+
+    def test_an_isotropic_tensor_is_the_isotropic_material(self):
+        grid, with_tensor = bar((2, 2, 4)), bar((2, 2, 4))
+        shear, lame = YOUNG / 2 / (1 + POISSON), YOUNG * POISSON / (1 + POISSON) / (1 - 2 * POISSON)
+        full = np.diag([2 * shear] * 3 + [shear] * 3)
+        full[:3, :3] += lame
+        set_cells(with_tensor, ElasticityTensor=[full[np.triu_indices(6)]] * with_tensor.GetNumberOfCells())
+        self.assertLess(np.abs(palpate.greens_functions(model_of(with_tensor))
+                               / palpate.greens_functions(model_of(grid)) - 1).max(), 1e-6)
+
+    def test_a_surface_is_filled_and_keeps_its_data(self):
+        surface = palpate.refine(palpate.read(palpate.example("nodule")))
+        bem = palpate.precompute(surface, YOUNG, POISSON)
+        fem = palpate.precompute(surface, YOUNG, POISSON, method="fem")
+        self.assertEqual(fem.GetNumberOfPoints(), surface.GetNumberOfPoints())
+        np.testing.assert_array_equal(palpate.array(fem, "BoundaryType"),
+                                      palpate.array(bem, "BoundaryType"))
+        self.assertLess(palpate.array(fem, "ReciprocityDefect")[0], 1e-12)
+        place = points_of(surface)[points_of(surface)[:, 2].argmax()]
+        both = [palpate.array(palpate.press(model, place, force=(0, 0, -1), radius=0.02),
+                              "Displacement")[:, 2].min() for model in (bem, fem)]
+        self.assertAlmostEqual(both[0] / both[1], 1, delta=0.15)  # what meshes of 130 vertices err by
+
+    def test_refusals_name_their_cause(self):
+        grid = bar((2, 2, 2))
+        cells = grid.GetNumberOfCells()
+        hexahedron = bar((1, 1, 1))
+        hexahedron.InsertNextCell(VTK_HEXAHEDRON, 8, [0, 1, 3, 2, 4, 5, 7, 6])
+        other = bar((2, 2, 3))
+        for what, sentence in (
+                (lambda: model_of(set_cells(bar((2, 2, 2)), YoungsModulus=[1.0] * cells)), "PoissonRatio"),
+                (lambda: model_of(set_cells(bar((2, 2, 2)), YoungsModulus=[-1.0] * cells,
+                                            PoissonRatio=[0.3] * cells)), "cell 0"),
+                (lambda: model_of(set_cells(bar((2, 2, 2)), ElasticityTensor=[[1.0] * 6] * cells)), "21"),
+                (lambda: model_of(bar((1, 1, 1)), volume=hexahedron), "no tetrahedron"),
+                (lambda: model_of(grid, poisson=0.47, element="linear"), "lock"),
+                (lambda: model_of(grid, volume=other), "vertex"),
+                (lambda: model_of(grid, precision="float"), "precision makes no sense"),
+                (lambda: model_of(grid, volume=surface_of(grid)), "vtkUnstructuredGrid"),
+                (lambda: palpate.precompute(surface_of(grid), YOUNG, POISSON, element="linear"),
+                 "element makes no sense")):
+            with self.subTest(sentence), self.assertRaisesRegex(palpate.Error, sentence):
+                what()
+
+    def test_cells_of_lower_dimension_are_left_out(self):
+        grid = bar((2, 2, 2))
+        plain = palpate.greens_functions(model_of(grid))
+        with_triangle = bar((2, 2, 2))
+        with_triangle.InsertNextCell(VTK_TRIANGLE, 3, [0, 1, 3])
+        np.testing.assert_array_equal(palpate.greens_functions(model_of(grid, volume=with_triangle)), plain)
+
+
+class Filter(unittest.TestCase):
+    def test_computes_once_for_one_body_and_again_for_another(self):
+        grid = bar((2, 2, 2))
+        conditions = palpate.vtkReferenceBoundaryConditions()
+        conditions.SetInputData(surface_of(grid))
+        conditions.AddFixedHalfSpace((0, 0, 1e-6), (0, 0, 1))
+        conditions.SetYoungsModulus(1)
+        conditions.SetPoissonRatio(0.3)
+        fem = palpate.vtkFiniteElementGreensFunctions()
+        fem.SetInputConnection(conditions.GetOutputPort())
+        fem.SetInputData(1, grid)
+
+        def matrix():
+            fem.Update()
+            return fem.GetOutput().GetFieldData().GetArray("GreensFunctions")
+
+        first = matrix()
+        conditions.SetYoungsModulus(2)
+        self.assertIs(matrix(), first)
+        conditions.SetPoissonRatio(0.2)
+        self.assertIsNot(matrix(), first)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = lambda name: os.path.join(folder.name, name)
+
+    def test_a_model_is_computed_read_and_pressed(self):
+        made = run("precompute", palpate.example("nodule"), self.path("m.vtp"), "--young", 1e4, "--poisson",
+                   0.49, "--method", "fem")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        told = run("info", self.path("m.vtp")).stdout
+        self.assertIn("finite elements (quadratic tetrahedra", told)
+        pressed = run("press", self.path("m.vtp"), self.path("p.vtp"), "--at", 0, 0, 1, "--force", 0, 0, -1,
+                      "--radius-edges", 2)
+        self.assertEqual(pressed.returncode, 0, pressed.stderr)
+
+    def test_options_of_other_methods_are_refused(self):
+        for method, option in (("fem", "--collocation=vertex"), ("bem", "--cell-size=1")):
+            made = run("precompute", palpate.example("nodule"), self.path("m.vtp"), "--young", 1, "--poisson",
+                       0.3, "--method", method, option)
+            self.assertNotEqual(made.returncode, 0)
+            self.assertIn("makes no sense with --method " + method, made.stderr)
+            self.assertFalse(os.path.exists(self.path("m.vtp")))
+
+
+if __name__ == "__main__":
+    unittest.main()
