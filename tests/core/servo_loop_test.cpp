@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -13,6 +14,7 @@
 #include "haptics/simulated_device.h"
 #include "haptics/virtual_wall.h"
 #include "support/allocation_count.h"
+#include "support/eventually.h"
 #include "support/lock_count.h"
 #include "support/refusals.h"
 
@@ -71,9 +73,20 @@ class WatchedWall : public VirtualWall {
   }
 
   bool finite = true;
-  int steps = 0, resets = 0;
+  std::atomic<int> steps{0};
+  int resets = 0;
   std::function<void()> onStep, onDeath;
 };
+
+/// A step of 2.5 ms of the thread's own time, however long others take the processor.
+void computeTooLong() {
+  auto computed = [] {
+    timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  for (const double begin = computed(); computed() < begin + 2.5e-3;) continue;
+}
 
 void sleepFor(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -83,7 +96,7 @@ void sleepFor(double seconds) {
 void startAndTick(ServoLoop& loop) {
   const std::int64_t before = loop.statistics().ticks;
   loop.start();
-  for (int i = 0; i < 5000 && loop.statistics().ticks == before; ++i) sleepFor(0.001);
+  EXPECT_TRUE(eventually([&] { return loop.statistics().ticks > before; }));
 }
 
 constexpr int kTicksToRender = 620;
@@ -278,11 +291,11 @@ TEST_F(AServoLoop, AnotherModelIsTouchedFromTheNextTickOnAndTheFormerReleasedByT
   }
   auto last = make();
   loop.setModel(last);
-  for (int i = 0; i < 1000 && deaths < 50; ++i) {
-    sleepFor(0.002);
+  EXPECT_TRUE(eventually([&] {
     loop.update();
-  }
-  EXPECT_EQ(deaths, 50) << "all but the one in use";
+    return deaths == 50;
+  })) << "all but the one in use";
+  EXPECT_TRUE(eventually([&] { return last->steps > 0; }));
   loop.stop();
   EXPECT_GT(last->steps, 0);
 }
@@ -315,7 +328,7 @@ TEST_F(AServoLoop, ATickTakesNoLockAllocatesNothingAndThrowsNothing) {
   settings.passivityDamping = 10;
   ServoLoop loop(wall_, tools(), settings);
   loop.start();
-  for (int i = 0; ticks < 1500 && i < 5000; ++i) {
+  for (int i = 0; ticks < 1500 && i < 30000; ++i) {
     loop.update();
     if (i % 20 == 0) loop.pause(i % 40 == 0);
     if (i % 30 == 0) loop.reset();
@@ -334,26 +347,30 @@ TEST_P(AtARate, TicksKeepTheRealTimeAndMostAreOnTime) {
   ServoSettings settings;
   settings.rate = GetParam();
   ServoLoop loop(wall_, tools(), settings);
-  startAndTick(loop);
-  EXPECT_TRUE(loop.isRunning());
-  EXPECT_THROW(loop.runHeadless(1), std::logic_error);
   const ServoStatistics& statistics = loop.statistics();
-  const std::int64_t before = statistics.ticks + statistics.missedTicks;
-  const auto begin = std::chrono::steady_clock::now();
-  sleepFor(0.4);
-  loop.stop();
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  EXPECT_FALSE(loop.isRunning());
-  // Deadlines are absolute: ticks and missed ones add up to the time, whatever the machine does.
-  const auto all = static_cast<double>(statistics.ticks + statistics.missedTicks);
-  // But for a stall at either end.
-  EXPECT_NEAR(all - static_cast<double>(before), seconds * settings.rate, 0.1 * settings.rate);
-  EXPECT_GE(static_cast<double>(statistics.ticks), 0.25 * all) << "on a machine taken by others";
-  EXPECT_EQ(statistics.compute.count(), statistics.ticks);
-  EXPECT_EQ(statistics.lateness.count(), statistics.ticks);
-  EXPECT_LE(statistics.lateness.quantile(0.5), 1e-3);
-  EXPECT_LE(statistics.compute.quantile(0.5), 5e-4) << "a wall costs microseconds";
+  // A machine taken by others is late; one that never keeps its time, in ten runs, is not taken.
+  bool kept = false;
+  for (int run = 0; run < 10 && !kept; ++run) {
+    startAndTick(loop);
+    EXPECT_TRUE(loop.isRunning());
+    EXPECT_THROW(loop.runHeadless(1), std::logic_error);
+    loop.clearStatistics();
+    const auto begin = std::chrono::steady_clock::now();
+    sleepFor(0.4);
+    loop.stop();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_FALSE(loop.isRunning());
+    EXPECT_EQ(statistics.compute.count(), statistics.ticks);
+    EXPECT_EQ(statistics.lateness.count(), statistics.ticks);
+    // Deadlines are absolute: ticks and missed ones add up to the time.
+    const auto all = static_cast<double>(statistics.ticks + statistics.missedTicks);
+    kept = std::abs(all - seconds * settings.rate) <= 0.1 * settings.rate &&
+           static_cast<double>(statistics.ticks) >= 0.5 * all &&
+           statistics.lateness.quantile(0.5) <= 1e-3 &&
+           statistics.compute.quantile(0.5) <= 5e-4;  // a wall costs microseconds
+  }
+  EXPECT_TRUE(kept) << statistics.table();
   EXPECT_TRUE(contains(statistics.table(), "lateness"));
   EXPECT_TRUE(contains(statistics.table(), "compute"));
 }
@@ -363,12 +380,11 @@ INSTANTIATE_TEST_SUITE_P(Hertz, AtARate, testing::Values(250, 1000, 4000, 10000)
 TEST_F(AServoLoop, AGraphicsThreadThatStallsHoldsUpNothing) {
   ServoLoop loop(wall_, tools());
   startAndTick(loop);
-  sleepFor(0.05);
-  loop.update();
+  ASSERT_TRUE(eventually([&] { return loop.update(); }));
   const std::uint64_t seen = loop.latest().contact.tick;
   const std::int64_t before = loop.statistics().ticks;
-  sleepFor(1);  // with a snapshot in its hands
-  EXPECT_GE(loop.statistics().ticks - before, 250) << "on a machine taken by others";
+  // With a snapshot in its hands:
+  EXPECT_TRUE(eventually([&] { return loop.statistics().ticks >= before + 250; }));
   EXPECT_EQ(loop.latest().contact.tick, seen);
   EXPECT_TRUE(loop.update());
   EXPECT_GE(loop.latest().contact.tick, seen + 250);
@@ -379,33 +395,30 @@ TEST_F(AServoLoop, AGraphicsThreadThatStallsHoldsUpNothing) {
 TEST_F(AServoLoop, AModelThatTakesTooLongIsCountedReportedAndFadedOut) {
   std::atomic<bool> slow{true};
   wall_->onStep = [&] {
-    const auto begin = std::chrono::steady_clock::now();
-    while (slow && std::chrono::steady_clock::now() - begin < std::chrono::microseconds(2500))
-      continue;
+    if (slow) computeTooLong();
   };
   ServoLoop loop(wall_, tools());
   startAndTick(loop);
-  sleepFor(0.3);
   const ServoStatistics& statistics = loop.statistics();
+  EXPECT_TRUE(eventually([&] { return statistics.ticks >= 100; }));
   const std::int64_t ticks = statistics.ticks;
-  EXPECT_GT(statistics.overruns, ticks / 2);
-  EXPECT_GT(statistics.missedTicks, ticks);
-  EXPECT_GT(statistics.overBudget, ticks / 2);
-  loop.update();
-  EXPECT_EQ(loop.latest().tools[0].safety.fault, Fault::LateSolves);
-  EXPECT_EQ(loop.latest().tools[0].rendered.force, Vector3d::Zero());
-  slow = false;
-  SafetyReport report;
-  for (int i = 0; i < 300 && report.phase != SafetyPhase::Rendering; ++i) {
-    sleepFor(0.01);
+  EXPECT_GE(statistics.overruns, 99);
+  EXPECT_GE(statistics.missedTicks, 99);
+  EXPECT_GE(statistics.overBudget, 99);
+  EXPECT_TRUE(eventually([&] {
     loop.update();
-    report = loop.latest().tools[0].safety;
-  }
-  EXPECT_EQ(report.phase, SafetyPhase::Rendering) << "it recovers";
-  EXPECT_EQ(report.fault, Fault::None);
+    return loop.latest().tools[0].safety.fault == Fault::LateSolves &&
+           loop.latest().tools[0].rendered.force == Vector3d::Zero();
+  }));
+  slow = false;
+  EXPECT_TRUE(eventually([&] {
+    loop.update();
+    return loop.latest().tools[0].safety.phase == SafetyPhase::Rendering;
+  })) << "it recovers";
+  EXPECT_EQ(loop.latest().tools[0].safety.fault, Fault::None);
+  EXPECT_GT(statistics.ticks, ticks + 300) << "by a ramp";
   loop.clearStatistics();
-  sleepFor(0.05);
-  EXPECT_LT(statistics.ticks, ticks + 300);
+  EXPECT_TRUE(eventually([&] { return statistics.ticks < 300 && statistics.overBudget == 0; }));
   loop.stop();
 }
 
@@ -415,11 +428,8 @@ TEST_F(AServoLoop, StoppingFadesTheForceAndAnotherStartRampsIt) {
     hand_.forces.clear();
     loop.start();
     loop.start();
-    for (int i = 0; i < 300; ++i) {
-      sleepFor(0.01);
-      loop.update();
-      if (loop.latest().tools[0].safety.phase == SafetyPhase::Rendering && i > 70) break;
-    }
+    const std::int64_t before = loop.statistics().ticks;
+    EXPECT_TRUE(eventually([&] { return loop.statistics().ticks > before + kTicksToRender; }));
     loop.stop();
     loop.stop();
     const std::vector<Vector3d>& forces = hand_.forces;
