@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <read_surface.h>
+#include <read_files.h>
 #include <vtkBoundaryElementGreensFunctions.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -12,9 +12,12 @@
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
 #include <vtkSmartPointer.h>
+#include <vtkSolidBoundary.h>
 #include <vtkToleranceGreensFunctions.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -86,7 +89,9 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
 
 void addOptions(CLI::App& command, Options& o) {
   command
-      .add_option("input", o.input, "A triangle surface: closed, or flat for a half-space below it")
+      .add_option("input", o.input,
+                  "A triangle surface: closed, or flat for a half-space below it; for fem also a "
+                  "volume mesh of tetrahedra, .vtu or .vtk")
       ->required();
   requireWritable(
       command
@@ -212,6 +217,31 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> method(const Options& o) {
   return filter;
 }
 
+bool isVolumeFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".vtu" || extension == ".vtk";
+}
+
+/// Sets the surface with its support, and what fills it if the input does.
+void setInput(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
+  vtkNew<vtkReferenceBoundaryConditions> conditions;
+  o.support.applyTo(conditions);
+  if (isVolumeFile(o.input)) {
+    if (o.method != "fem")
+      throw std::invalid_argument(o.input + " is a volume mesh: add --method fem");
+    if (o.cellSize > 0)
+      throw std::invalid_argument("--cell-size makes no sense with a volume mesh: leave it out");
+    const auto volume = readVolume(o.input);
+    vtkNew<vtkSolidBoundary> boundary;
+    boundary->SetInputData(volume);
+    conditions->SetInputData(run(boundary));
+    filter->SetInputData(1, volume);
+  } else {
+    conditions->SetInputData(readSurface(o.input));
+  }
+  filter->SetInputData(run(conditions));
+}
+
 void printModel(vtkPolyData* model) {
   for (const std::string& step : fieldStrings(model, "ToleranceSteps")) printRow("tried", step);
   vtkDataArray* nodes = model->GetFieldData()->GetArray("GreensFunctionNodes");
@@ -249,11 +279,8 @@ void addPrecompute(CLI::App& program) {
       "      --fix-half-space 0 0 0.001  0 0 1");
   command->callback([options, command] {
     refuseForeignOptions(*command, *options);
-    vtkNew<vtkReferenceBoundaryConditions> conditions;
-    conditions->SetInputData(readSurface(options->input));
-    options->support.applyTo(conditions);
     const auto filter = method(*options);
-    filter->SetInputData(run(conditions));
+    setInput(filter, *options);
     const auto model = run(filter);
     writeSurface(model, options->output);
     printModel(model);

@@ -3,7 +3,7 @@
 
 #include "terminal.h"
 
-#include <read_surface.h>
+#include <read_files.h>
 #include <unistd.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>

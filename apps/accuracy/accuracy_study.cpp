@@ -3,7 +3,7 @@
 
 #include "accuracy/accuracy_study.h"
 
-#include <read_surface.h>
+#include <read_files.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>

@@ -4,7 +4,7 @@
 #include "report/stiffness_study.h"
 
 #include <conversion.h>
-#include <read_surface.h>
+#include <read_files.h>
 #include <vtkBoundaryElementGreensFunctions.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <model_arrays.h>
-#include <read_surface.h>
+#include <read_files.h>
 #include <vtkCamera.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>

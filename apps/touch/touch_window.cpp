@@ -3,7 +3,7 @@
 
 #include "touch/touch_window.h"
 
-#include <read_surface.h>
+#include <read_files.h>
 #include <vtkCallbackCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkInteractorStyleHaptic.h>

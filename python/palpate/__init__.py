@@ -19,7 +19,7 @@ from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
 from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
-from .files import example, read, write
+from .files import example, read, read_volume, write
 from .precomputation import precompute
 from .surfaces import refine, remesh, repair
 from .version import __version__
@@ -36,6 +36,7 @@ __all__ = [
     "precompute",
     "press",
     "read",
+    "read_volume",
     "refine",
     "remesh",
     "repair",

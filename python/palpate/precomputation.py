@@ -29,6 +29,7 @@ from .PalpateElastostatics import (
     vtkFiniteElementGreensFunctions,
     vtkHalfSpaceGreensFunctions,
     vtkReferenceBoundaryConditions,
+    vtkSolidBoundary,
     vtkToleranceGreensFunctions,
 )
 
@@ -47,9 +48,10 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
 
     Parameters
     ----------
-    surface : vtkPolyData
+    surface : vtkPolyData or vtkUnstructuredGrid
         A closed triangle surface of n vertices, normals out of what it encloses (see `repair`); for a
-        half-space a flat one, normals out of it.
+        half-space a flat one, normals out of it. For finite elements also the tetrahedra themselves,
+        whose boundary is then the surface: its n vertices are the grid's points on it, in their order.
         Lengths in metres, or in any one unit.
     young : float or None
         Young's modulus, Pa, > 0. None takes the surface's field data.
@@ -145,6 +147,10 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     True
     """
     choice(method, {"bem": 0, "fem": 1, "halfspace": 2}, "method")
+    if isinstance(surface, vtkUnstructuredGrid):
+        if method != "fem" or volume is not None:
+            raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
+        surface, volume = boundary_of(surface), surface
     settings = dict(
         precision=precision, tolerance=tolerance, domain=domain, smooth_angle=smooth_angle,
         collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
@@ -189,6 +195,13 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         for sentence in array(model, "Warnings"):
             warnings.warn(sentence, ModelWarning, stacklevel=2)
     return model
+
+
+def boundary_of(grid):
+    """The surface of a grid's tetrahedra."""
+    boundary = vtkSolidBoundary()
+    boundary.SetInputData(grid)
+    return run(boundary)
 
 
 METHODS_OF = {

@@ -343,6 +343,18 @@ TEST(FiniteElementsOfTwoMaterials, StaySymmetricWhereBothAreNearlyIncompressible
   }
 }
 
+TEST(FiniteElementsOfTwoMaterials, HangingOnNextToNothingAreRefused) {
+  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {2, 2, 4}).mesh();
+  const ElasticModel model = makeModel(boundaryOf(mesh), base, 1, 0);
+  std::vector<int> number(mesh.cellCount());
+  for (int t = 0; t < mesh.cellCount(); ++t)
+    number[t] = mesh.points().row(2)(mesh.tetrahedra().col(t)).mean() > 0.5;
+  const SolidProblem problem{
+      model, SolidBody(model.mesh(), mesh,
+                       {Elasticity(Material(1e-18, 0)), Elasticity(Material(1, 0))}, number)};
+  EXPECT_THROW(problem.greens(allColumns(model)), std::runtime_error);
+}
+
 class FiniteElementScales : public testing::TestWithParam<double> {};
 
 TEST_P(FiniteElementScales, OfLengthAndStiffnessScaleTheColumnsAlone) {
@@ -400,6 +412,8 @@ TEST(FiniteElementCantilever, BendsAndStretchesAsTheReferenceOfItsProportions) {
   };
   const Eigen::Vector2d coarse = errors(2), fine = errors(4);
   EXPECT_LT(std::abs(coarse[1]), 0.02);
+  EXPECT_LT(std::abs(fine[0]), std::abs(coarse[0]));
+  EXPECT_LT(std::abs(fine[1]), std::abs(coarse[1]));
   EXPECT_LT(std::abs(fine[0]), 0.005);
   EXPECT_LT(std::abs(fine[1]), 0.005);
 }
@@ -413,6 +427,7 @@ TEST(FiniteElementCube, YieldsUnderItsTopsTractionAsTheReference) {
         topDisplacement({1, 1, 1}, all, Eigen::Vector3d::UnitX()).x() / 6.71156 - 1);
   };
   const Eigen::Vector2d coarse = errors(4), fine = errors(8);
+  EXPECT_LT(fine.cwiseAbs().maxCoeff(), coarse.cwiseAbs().maxCoeff());
   EXPECT_LT(fine.cwiseAbs().maxCoeff(), 0.01);
 }
 
@@ -443,6 +458,7 @@ TEST(FiniteElements, AgreeWithBoundaryElementsAsBothAreRefined) {
     return (fem - bem).norm() / bem.norm();
   };
   const double coarse = difference(4), fine = difference(8);
+  EXPECT_LT(fine, coarse / 2);
   EXPECT_LT(fine, 0.005);
 }
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "greens/support_tractions.h"
 #include "model/support.h"
 
 namespace palpate {
@@ -242,23 +242,20 @@ Wrench wrenchOf(const GreensFunctions& greens, const Eigen::Matrix3Xd& points,
 
 Eigen::Matrix3Xd forcePoints(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                              const Eigen::VectorXi& smoothPatches) {
+  const Eigen::Matrix3Xd shares = supportShares(mesh, conditions, smoothPatches);
   Eigen::Matrix3Xd points = mesh.points();
   for (int v : conditions.fixedNodes()) {
-    std::set<int> bearing;  // patches with a wholly fixed triangle at the vertex
-    for (int f : mesh.trianglesOfVertex(v)) {
-      const auto corners = mesh.triangles().col(f);
-      if (std::all_of(corners.begin(), corners.end(), [&](int c) { return conditions.isFixed(c); }))
-        bearing.insert(smoothPatches[f]);
-    }
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     double area = 0;
     for (int f : mesh.trianglesOfVertex(v)) {
-      if (!bearing.empty() && bearing.count(smoothPatches[f]) == 0) continue;
+      const Eigen::Vector3i corners = mesh.triangles().col(f);
+      const double part =
+          mesh.triangleAreas()[f] *
+          (corners.array() == v).select(shares.col(f), Eigen::Vector3d::Zero()).sum();
       // The hat function's integral of x: a quarter from each corner, and another from the vertex.
-      const Eigen::Vector3d sum =
-          mesh.points()(Eigen::all, mesh.triangles().col(f)).rowwise().sum() + mesh.points().col(v);
-      moment += mesh.triangleAreas()[f] * sum / 4;
-      area += mesh.triangleAreas()[f];
+      moment +=
+          part / 4 * (mesh.points()(Eigen::all, corners).rowwise().sum() + mesh.points().col(v));
+      area += part;
     }
     points.col(v) = moment / area;
   }

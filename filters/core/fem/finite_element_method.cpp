@@ -93,6 +93,10 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   info.homogeneous = body.isOf(model.material());
   info.source = describeSource(body, options.element);
   info.reciprocal = options.reciprocal;
+  info.diagnostics.warnings =
+      options.element == SolidElement::Linear
+          ? modelWarnings(model, info.diagnostics.wallRatio, info.diagnostics.supportWidth)
+          : supportWarnings(model, info.diagnostics.supportWidth);
 
   Stopwatch watch;
   std::vector<LoadHat> hats = loadHats(model, options.patchColumns);

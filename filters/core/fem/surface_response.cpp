@@ -9,6 +9,8 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
+#include "sentence.h"
+
 namespace palpate::fem {
 namespace {
 
@@ -69,6 +71,7 @@ class Condensation {
       answer.rightCols<6>().noalias() = factored.schurComplement() * given;
     }
     response.rigidMotionDefect = defectOf(answer.rightCols<6>());
+    requireRigidMotions(response.rigidMotionDefect);
     answer.conservativeResize(Eigen::NoChange, columns);
     response.columns = atVertices(answer, wanted);
     return response;
@@ -210,6 +213,16 @@ class Condensation {
   void requireInertia(const SparseFactorization& factored) const {
     if (factored.negativePivots() != system_.pressureCount)
       throw std::runtime_error("the sparse system is singular: a part of the body is not held");
+  }
+
+  /// Of null pivots beside kept rows the library does not tell: they spoil what it gives.
+  static void requireRigidMotions(double defect) {
+    constexpr double mostRounding = 1e-4;  // of what is solved to ten digits and more
+    if (!(defect <= mostRounding))
+      throw std::runtime_error(
+          sentence("the sparse system is singular to rounding: where its support moves, the body "
+                   "follows with a relative error of ",
+                   defect, "; a part of it is not held, or materials differ by too much"));
   }
 
   /// 3 #free by any: displacement times hat of each free vertex, integrated.

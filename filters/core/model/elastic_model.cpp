@@ -12,6 +12,17 @@
 #include "model/support.h"
 
 namespace palpate {
+namespace {
+
+template <class... Parts>
+std::string inThreeDigits(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+}  // namespace
 
 ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                            BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
@@ -77,33 +88,33 @@ std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions
 
 std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
                                        double& supportWidth) {
-  constexpr double thinFrom = 0.5, veryThinFrom = 1.5, narrowBelow = 3;
+  constexpr double thinFrom = 0.5, veryThinFrom = 1.5;
   std::vector<std::string> warnings;
-  const auto warn = [&](auto&&... parts) {
-    std::ostringstream text;
-    text.precision(3);
-    (text << ... << parts);
-    warnings.push_back(text.str());
-  };
   const WallRatio wall =
       model.domain() == Domain::Interior ? largestWallRatio(model.mesh()) : WallRatio{};
   wallRatio = wall.ratio;
   if (wallRatio > veryThinFrom)
-    warn("the wall at triangle ", wall.triangle,
-         " is thinner than the edges there (edge over thickness ", wallRatio,
-         "): it is too stiff in bending; refine until edges are shorter than the wall is thick");
+    warnings.push_back(inThreeDigits(
+        "the wall at triangle ", wall.triangle,
+        " is thinner than the edges there (edge over thickness ", wallRatio,
+        "): it is too stiff in bending; refine until edges are shorter than the wall is thick"));
   else if (wallRatio > thinFrom)
-    warn("the wall at triangle ", wall.triangle, " is thin for the mesh (edge over thickness ",
-         wallRatio, "): if it bends, compare with a finer mesh");
+    warnings.push_back(inThreeDigits("the wall at triangle ", wall.triangle,
+                                     " is thin for the mesh (edge over thickness ", wallRatio,
+                                     "): if it bends, compare with a finer mesh"));
+  for (std::string& warning : supportWarnings(model, supportWidth))
+    warnings.push_back(std::move(warning));
+  return warnings;
+}
 
+std::vector<std::string> supportWarnings(const ElasticModel& model, double& supportWidth) {
+  constexpr double narrowBelow = 3;
   const double width = supportWidthInEdges(model.mesh(), model.conditions());
   supportWidth = std::isfinite(width) ? width : -1;
-  if (width < narrowBelow)
-    warn("a support is only ", width,
-         " edges wide: its compliance depends on the mesh; fix an area "
-         "at least ",
-         narrowBelow, " edges wide");
-  return warnings;
+  if (!(width < narrowBelow)) return {};
+  return {inThreeDigits("a support is only ", width,
+                        " edges wide: its compliance depends on the mesh; fix an area at least ",
+                        narrowBelow, " edges wide")};
 }
 
 }  // namespace palpate

@@ -70,4 +70,7 @@ std::uint64_t modelFingerprint(const SurfaceMesh& mesh, const BoundaryConditions
 std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRatio,
                                        double& supportWidth);
 
+/// Those about supports alone.
+std::vector<std::string> supportWarnings(const ElasticModel& model, double& supportWidth);
+
 }  // namespace palpate

@@ -50,6 +50,8 @@ constexpr const char* PoissonRatio = "PoissonRatio";
 constexpr const char* TransverselyIsotropicModuli =
   "TransverselyIsotropicModuli"; // 5: E (Pa), nu along, E, nu across, G along the fibres
 constexpr const char* FibreDirection = "FibreDirection"; // 3, of any length but zero
+constexpr const char* OrthotropicModuli = "OrthotropicModuli"; // 9: E 1, 2, 3; nu 12, 13, 23; G 12, 13, 23
+constexpr const char* MaterialAxes = "MaterialAxes"; // 6: directions of axes 1 and 2
 constexpr const char* ElasticityTensor = "ElasticityTensor"; // 21, upper triangle row by row, Pa
 
 // Field data: Green's functions.

@@ -10,6 +10,7 @@
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -74,58 +75,91 @@ vtkDataArray* cellArray(vtkUnstructuredGrid* grid, const char* name, int compone
   return array;
 }
 
-/// Arrays whose components, one after the other, are a material.
+Elasticity isotropic(const MaterialKey& values)
+{
+  return Elasticity(Material(values[0], values[1]));
+}
+
+Elasticity withFibres(const MaterialKey& values)
+{
+  return Elasticity::transverselyIsotropic(
+    { values[5], values[6], values[7] }, values[0], values[1], values[2], values[3], values[4]);
+}
+
+Elasticity withThreeAxes(const MaterialKey& values)
+{
+  const OrthotropicModuli moduli{ { values[0], values[1], values[2] },
+    { values[3], values[4], values[5] }, { values[6], values[7], values[8] } };
+  const Eigen::Vector3d first = Eigen::Vector3d(values[9], values[10], values[11]).stableNormalized();
+  const Eigen::Vector3d given = Eigen::Vector3d(values[12], values[13], values[14]).stableNormalized();
+  const Eigen::Vector3d second = given - given.dot(first) * first;
+  if (!(second.norm() > 1e-6 && first.norm() > 0.5))
+  {
+    throw std::invalid_argument("its MaterialAxes are not two directions");
+  }
+  Eigen::Matrix3d axes;
+  axes << first, second.normalized(), first.cross(second.normalized());
+  return Elasticity::orthotropic(moduli, axes);
+}
+
+Elasticity withAllConstants(const MaterialKey& values)
+{
+  Matrix6d stiffness;
+  for (int row = 0, next = 0; row < 6; ++row)
+  {
+    for (int column = row; column < 6; ++column)
+    {
+      stiffness(row, column) = stiffness(column, row) = values[next++];
+    }
+  }
+  return Elasticity(stiffness);
+}
+
+/// Cell arrays that go together; their components, one after the other, are a material.
 struct MaterialArrays
 {
-  explicit MaterialArrays(vtkUnstructuredGrid* grid)
-    : Isotropic{ cellArray(grid, arrays::YoungsModulus, 1), cellArray(grid, arrays::PoissonRatio, 1) }
-    , Fibres{ cellArray(grid, arrays::TransverselyIsotropicModuli, 5),
-      cellArray(grid, arrays::FibreDirection, 3) }
-    , Tensor(cellArray(grid, arrays::ElasticityTensor, LargestMaterial))
+  struct Array
   {
-    if (!this->Isotropic[0] != !this->Isotropic[1] || !this->Fibres[0] != !this->Fibres[1] ||
-      (this->Isotropic[0] != nullptr) + (this->Fibres[0] != nullptr) + (this->Tensor != nullptr) > 1)
+    const char* name;
+    int components;
+  };
+  std::vector<Array> arrays;
+  Elasticity (*material)(const MaterialKey&);
+};
+
+const MaterialArrays MaterialKinds[] = {
+  { { { arrays::YoungsModulus, 1 }, { arrays::PoissonRatio, 1 } }, isotropic },
+  { { { arrays::TransverselyIsotropicModuli, 5 }, { arrays::FibreDirection, 3 } }, withFibres },
+  { { { arrays::OrthotropicModuli, 9 }, { arrays::MaterialAxes, 6 } }, withThreeAxes },
+  { { { arrays::ElasticityTensor, LargestMaterial } }, withAllConstants },
+};
+
+/// The kind of material that a grid's cells have, null for none.
+const MaterialArrays* materialKindOf(vtkUnstructuredGrid* grid)
+{
+  const MaterialArrays* found = nullptr;
+  for (const MaterialArrays& kind : MaterialKinds)
+  {
+    std::size_t present = 0;
+    for (const MaterialArrays::Array& array : kind.arrays)
+    {
+      present += cellArray(grid, array.name, array.components) != nullptr;
+    }
+    if (present == 0)
+    {
+      continue;
+    }
+    if (present < kind.arrays.size() || found)
     {
       throw std::invalid_argument(
         "the cells of a volume mesh have either YoungsModulus and PoissonRatio, or "
-        "TransverselyIsotropicModuli and FibreDirection, or ElasticityTensor");
+        "TransverselyIsotropicModuli and FibreDirection, or OrthotropicModuli and MaterialAxes, or "
+        "ElasticityTensor");
     }
+    found = &kind;
   }
-
-  std::vector<vtkDataArray*> Present() const
-  {
-    if (this->Tensor)
-    {
-      return { this->Tensor };
-    }
-    const auto& pair = this->Fibres[0] ? this->Fibres : this->Isotropic;
-    return pair[0] ? std::vector<vtkDataArray*>(pair, pair + 2) : std::vector<vtkDataArray*>();
-  }
-
-  Elasticity Material(const MaterialKey& values) const
-  {
-    if (this->Tensor)
-    {
-      Matrix6d stiffness;
-      for (int row = 0, next = 0; row < 6; ++row)
-      {
-        for (int column = row; column < 6; ++column)
-        {
-          stiffness(row, column) = stiffness(column, row) = values[next++];
-        }
-      }
-      return Elasticity(stiffness);
-    }
-    return this->Fibres[0]
-      ? Elasticity::transverselyIsotropic(
-          { values[5], values[6], values[7] }, values[0], values[1], values[2], values[3], values[4])
-      : Elasticity(palpate::Material(values[0], values[1]));
-  }
-
-  vtkDataArray* Isotropic[2];
-  vtkDataArray* Fibres[2];
-  vtkDataArray* Tensor;
-};
+  return found;
+}
 
 vtkSmartPointer<vtkIdList> cornersAt(const SurfaceMesh& mesh, int triangle)
 {
@@ -136,11 +170,20 @@ vtkSmartPointer<vtkIdList> cornersAt(const SurfaceMesh& mesh, int triangle)
   }
   return corners;
 }
-} // namespace
+/// Tetrahedra, and the grid's point behind each of theirs.
+struct GridTetrahedra
+{
+  TetrahedralMesh mesh;
+  std::vector<vtkIdType> pointIds;
+};
 
-TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid)
+GridTetrahedra gridTetrahedra(vtkUnstructuredGrid* grid)
 {
   const std::vector<vtkIdType> cells = tetrahedronCells(grid);
+  if (cells.empty())
+  {
+    throw std::invalid_argument("the volume mesh has no tetrahedra");
+  }
   std::vector<int> number(grid->GetNumberOfPoints(), -1);
   Eigen::Matrix4Xi tetrahedra(4, static_cast<Eigen::Index>(cells.size()));
   vtkNew<vtkIdList> corners;
@@ -159,28 +202,68 @@ TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid)
       tetrahedra(k, static_cast<Eigen::Index>(t)) = static_cast<int>(point);
     }
   }
-  int count = 0;
-  for (int& n : number)
-  {
-    n = n < 0 ? n : count++;
-  }
-  Eigen::Matrix3Xd points(3, count);
+  std::vector<vtkIdType> ids;
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
-    if (number[i] >= 0)
+    if (number[i] == 0)
     {
-      grid->GetPoint(i, points.col(number[i]).data());
+      number[i] = static_cast<int>(ids.size());
+      ids.push_back(i);
     }
   }
-  return TetrahedralMesh(
-    std::move(points), tetrahedra.unaryExpr([&](int point) { return number[point]; }));
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(ids.size()));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    grid->GetPoint(ids[i], points.col(static_cast<Eigen::Index>(i)).data());
+  }
+  return { TetrahedralMesh(
+             std::move(points), tetrahedra.unaryExpr([&](int point) { return number[point]; })),
+    std::move(ids) };
+}
+} // namespace
+
+TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid)
+{
+  return gridTetrahedra(grid).mesh;
+}
+
+vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid)
+{
+  const GridTetrahedra body = gridTetrahedra(grid);
+  std::vector<int> number(body.pointIds.size(), -1);
+  for (int corner : body.mesh.boundary().reshaped())
+  {
+    number[corner] = 0;
+  }
+  vtkNew<vtkIdList> from, to;
+  for (std::size_t i = 0; i < number.size(); ++i)
+  {
+    if (number[i] == 0)
+    {
+      number[i] = static_cast<int>(from->GetNumberOfIds());
+      to->InsertNextId(from->GetNumberOfIds());
+      from->InsertNextId(body.pointIds[i]);
+    }
+  }
+  Eigen::Matrix3Xd points(3, from->GetNumberOfIds());
+  for (vtkIdType v = 0; v < from->GetNumberOfIds(); ++v)
+  {
+    grid->GetPoint(from->GetId(v), points.col(v).data());
+  }
+  auto boundary = vtkSmartPointer<vtkPolyData>::New();
+  setSurface(boundary, points, body.mesh.boundary().unaryExpr([&](int i) { return number[i]; }));
+  boundary->GetFieldData()->ShallowCopy(grid->GetFieldData());
+  vtkPointData* data = boundary->GetPointData();
+  data->CopyAllOn();
+  data->CopyAllocate(grid->GetPointData(), from->GetNumberOfIds());
+  data->CopyData(grid->GetPointData(), from, to);
+  return boundary;
 }
 
 CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
 {
-  const MaterialArrays found(grid);
-  const std::vector<vtkDataArray*> present = found.Present();
-  if (present.empty())
+  const MaterialArrays* kind = materialKindOf(grid);
+  if (!kind)
   {
     return { { Elasticity(otherwise) }, {} };
   }
@@ -190,11 +273,11 @@ CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
   {
     MaterialKey key{};
     int next = 0;
-    for (vtkDataArray* array : present)
+    for (const MaterialArrays::Array& array : kind->arrays)
     {
-      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      for (int c = 0; c < array.components; ++c)
       {
-        key[next++] = array->GetComponent(cell, c);
+        key[next++] = grid->GetCellData()->GetArray(array.name)->GetComponent(cell, c);
       }
     }
     for (double value : key)
@@ -210,7 +293,7 @@ CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
     {
       try
       {
-        result.materials.push_back(found.Material(key));
+        result.materials.push_back(kind->material(key));
       }
       catch (const std::invalid_argument& wrong)
       {

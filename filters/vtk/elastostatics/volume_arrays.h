@@ -25,6 +25,9 @@ namespace palpate::convert
 /// cells of lower dimension, which meshers write too, are left out.
 TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid);
 
+/// The boundary of a grid's tetrahedra, with the grid's point and field data.
+vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid);
+
 /// Materials as the cell arrays of a grid give them (see vtkFiniteElementGreensFunctions).
 struct CellMaterials
 {

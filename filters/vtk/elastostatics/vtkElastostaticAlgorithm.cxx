@@ -42,7 +42,10 @@ int vtkElastostaticAlgorithm::RequestData(
   this->FailureMessage.clear();
   try
   {
-    output->ShallowCopy(input);
+    if (input)
+    {
+      output->ShallowCopy(input);
+    }
     this->Compute(input, output, inputs);
     return 1;
   }

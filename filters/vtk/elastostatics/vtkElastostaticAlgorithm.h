@@ -36,7 +36,8 @@ protected:
     vtkInformationVector* outputs) override;
 
   /**
-   * The filter's work. The output starts as a shallow copy of the input. Throws what the core throws.
+   * The filter's work. The output starts as a shallow copy of the input, which is null where
+   * the first port does not take polydata. Throws what the core throws.
    */
   virtual void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) = 0;
 

@@ -11,6 +11,9 @@
  * - `YoungsModulus` and `PoissonRatio`;
  * - `TransverselyIsotropicModuli` (5: E and nu along the fibres, E and nu across, G along) with
  *   `FibreDirection` (3);
+ * - `OrthotropicModuli` (9: E along the material's axes 1, 2, 3; nu_12, nu_13, nu_23, the first index that
+ *   of the stress; G_12, G_13, G_23) with `MaterialAxes` (6: the directions of axes 1 and 2, of which the
+ *   second is made square to the first);
  * - `ElasticityTensor` (21: the upper triangle, row by row, of the stiffness of xx, yy, zz, yz, xz, xy
  *   with engineering shear strains).
  * Without them, and without input 1, the material of the field data fills the body.

@@ -7,7 +7,7 @@
 #include "haptics/glove_device.h"
 #include "haptics/hid_bus.h"
 #include "model_arrays.h"
-#include "read_surface.h"
+#include "read_files.h"
 
 #include "vtkPolyData.h"
 

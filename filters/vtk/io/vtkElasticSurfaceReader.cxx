@@ -3,13 +3,12 @@
 
 #include "vtkElasticSurfaceReader.h"
 
+#include "checked_read.h"
 #include "file_checks.h"
 #include "mesh/polygon_file.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -52,28 +51,6 @@ void vtkElasticSurfaceReader::SetFileName(const char* path)
 
 namespace
 {
-/// VTK's readers print what is wrong and go on; this keeps them quiet and remembers that it was.
-class QuietRead
-{
-public:
-  explicit QuietRead(vtkAlgorithm* reader)
-    : DisplayBefore(vtkObject::GetGlobalWarningDisplay())
-  {
-    vtkObject::SetGlobalWarningDisplay(0);
-    vtkNew<vtkCallbackCommand> note;
-    note->SetClientData(&this->Failed);
-    note->SetCallback([](vtkObject*, unsigned long, void* failed, void*)
-      { *static_cast<bool*>(failed) = true; });
-    reader->AddObserver(vtkCommand::ErrorEvent, note);
-  }
-  ~QuietRead() { vtkObject::SetGlobalWarningDisplay(this->DisplayBefore); }
-  bool HasFailed() const { return this->Failed; }
-
-private:
-  vtkTypeBool DisplayBefore;
-  bool Failed = false;
-};
-
 /// CGAL says what is wrong with a PLY file on std::cerr.
 class QuietErrorStream
 {
@@ -91,32 +68,6 @@ public:
 private:
   std::streambuf* Before;
 };
-
-template <class Reader>
-void readWith(const std::string& path, vtkPolyData* output)
-{
-  vtkNew<Reader> reader;
-  const QuietRead quiet(reader);
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (quiet.HasFailed() || reader->GetErrorCode() != 0)
-  {
-    throw std::runtime_error("the file is damaged or not of the kind that its extension says");
-  }
-  output->ShallowCopy(reader->GetOutput());
-}
-
-template <class Reader>
-void readWarily(const std::string& path, vtkPolyData* output)
-{
-  palpate::io::rehearse(path,
-    [&]
-    {
-      vtkNew<vtkPolyData> unused;
-      readWith<Reader>(path, unused);
-    });
-  readWith<Reader>(path, output);
-}
 
 void setPolygons(const palpate::PolygonSoup& soup, vtkPolyData* output)
 {
@@ -139,42 +90,6 @@ void setPolygons(const palpate::PolygonSoup& soup, vtkPolyData* output)
   output->SetPolys(polys);
 }
 
-void requireConsistentCells(vtkCellArray* cells, vtkIdType pointCount)
-{
-  if (!cells || cells->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  if (!cells->IsValid())
-  {
-    throw std::runtime_error("the file's cells are damaged");
-  }
-  vtkDataArray* corners = cells->GetConnectivityArray();
-  for (vtkIdType i = 0; i < corners->GetNumberOfTuples(); ++i)
-  {
-    const double corner = corners->GetComponent(i, 0);
-    if (!(corner >= 0 && corner < pointCount))
-    {
-      throw std::runtime_error("a cell refers to point " +
-        std::to_string(static_cast<long long>(corner)) + ", but there are only " +
-        std::to_string(pointCount));
-    }
-  }
-}
-
-void requireConsistentArrays(vtkDataSetAttributes* attributes, vtkIdType count, const char* what)
-{
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = attributes->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() != count)
-    {
-      throw std::runtime_error(std::string("the array '") +
-        (array->GetName() ? array->GetName() : "") + "' does not have a tuple a " + what);
-    }
-  }
-}
-
 void readFile(const std::string& path, vtkPolyData* output)
 {
   palpate::io::requireReadable(path);
@@ -184,22 +99,22 @@ void readFile(const std::string& path, vtkPolyData* output)
   {
     if (palpate::io::requireWholeXml(path))
     {
-      readWith<vtkXMLPolyDataReader>(path, output);
+      palpate::io::readWith<vtkXMLPolyDataReader>(path, output);
     }
     else
     {
-      readWarily<vtkXMLPolyDataReader>(path, output);
+      palpate::io::readWarily<vtkXMLPolyDataReader>(path, output);
     }
   }
   else if (extension == ".stl")
   {
     palpate::io::requireWholeStl(path);
-    readWarily<vtkSTLReader>(path, output);
+    palpate::io::readWarily<vtkSTLReader>(path, output);
   }
   else if (extension == ".obj")
   {
     palpate::io::requireNumbersInObj(path);
-    readWarily<vtkOBJReader>(path, output);
+    palpate::io::readWarily<vtkOBJReader>(path, output);
   }
   else if (extension == ".ply")
   {
@@ -220,14 +135,14 @@ void readFile(const std::string& path, vtkPolyData* output)
   for (vtkCellArray* cells :
     { output->GetVerts(), output->GetLines(), output->GetPolys(), output->GetStrips() })
   {
-    requireConsistentCells(cells, points);
+    palpate::io::requireConsistentCells(cells, points);
   }
   if (points == 0 || output->GetNumberOfCells() == 0)
   {
     throw std::runtime_error("the file holds no surface");
   }
-  requireConsistentArrays(output->GetPointData(), points, "point");
-  requireConsistentArrays(output->GetCellData(), output->GetNumberOfCells(), "cell");
+  palpate::io::requireConsistentArrays(output->GetPointData(), points, "point");
+  palpate::io::requireConsistentArrays(output->GetCellData(), output->GetNumberOfCells(), "cell");
 }
 } // namespace
 

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "read_surface.h"
+#include "read_files.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkElasticSurfaceReader.h"
+#include "vtkElasticVolumeReader.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <stdexcept>
 
@@ -20,9 +22,12 @@ void silence(vtkObject* object)
   object->AddObserver(vtkCommand::ErrorEvent, nothing);
 }
 
-vtkSmartPointer<vtkPolyData> readSurface(const std::string& path)
+namespace
 {
-  vtkNew<vtkElasticSurfaceReader> reader;
+template <class Reader>
+auto readFile(const std::string& path)
+{
+  vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   silence(reader);
   silence(reader->GetExecutive());
@@ -31,6 +36,17 @@ vtkSmartPointer<vtkPolyData> readSurface(const std::string& path)
   {
     throw std::runtime_error(reader->GetFailureMessage());
   }
-  return reader->GetOutput();
+  return vtk::MakeSmartPointer(reader->GetOutput());
+}
+} // namespace
+
+vtkSmartPointer<vtkPolyData> readSurface(const std::string& path)
+{
+  return readFile<vtkElasticSurfaceReader>(path);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> readVolume(const std::string& path)
+{
+  return readFile<vtkElasticVolumeReader>(path);
 }
 } // namespace palpate

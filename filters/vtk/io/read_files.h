@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef palpate_read_surface_h
-#define palpate_read_surface_h
+#ifndef palpate_read_files_h
+#define palpate_read_files_h
 
 #include "vtkSmartPointer.h"
 
@@ -10,6 +10,7 @@
 
 class vtkObject;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace palpate
 {
@@ -18,6 +19,9 @@ void silence(vtkObject* object);
 
 /// @throws std::runtime_error with vtkElasticSurfaceReader's sentence.
 vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
+
+/// @throws std::runtime_error with vtkElasticVolumeReader's sentence.
+vtkSmartPointer<vtkUnstructuredGrid> readVolume(const std::string& path);
 } // namespace palpate
 
 #endif

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "bem/interior_probes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+
+#include "bem/probe_kernels.h"
+#include "bem/triangle_quadrature.h"
+#include "greens/support_tractions.h"
+#include "mesh/surface_locator.h"
+#include "parallel.h"
+#include "sentence.h"
+
+namespace palpate {
+namespace {
+
+using Corners = Eigen::Matrix3d;  // columns
+
+double longestEdge(const Corners& x) {
+  return std::sqrt(
+      std::max({(x.col(0) - x.col(1)).squaredNorm(), (x.col(1) - x.col(2)).squaredNorm(),
+                (x.col(2) - x.col(0)).squaredNorm()}));
+}
+
+}  // namespace
+
+/// Integrals over the surface for one point after the other.
+struct InteriorProbes::Integration {
+  explicit Integration(const ElasticModel& m)
+      : model(m),
+        mesh(m.mesh()),
+        shares(supportShares(m.mesh(), m.conditions(), m.smoothPatches())),
+        side(m.domain() == Domain::Exterior ? -1 : 1) {}
+
+  /// Adds a triangle, cut in four as long as it is near for its size.
+  /// @param barycentric  of the piece's corners in the triangle, columns.
+  void add(const Eigen::Vector3d& point, int triangle, const Corners& barycentric, Rows& ofTraction,
+           Rows& ofDisplacement) const {
+    // Sixteen points integrate r^-3 to 1e-7 from 2 1/2 diameters on, seven from 8.
+    constexpr double splitBelow = 2.5, fewFrom = 8;
+    const Corners x = corners(triangle) * barycentric;
+    const double distance = (x.rowwise().mean() - point).norm() / longestEdge(x);
+    if (distance >= splitBelow) {
+      integrate(point, triangle, barycentric, x, distance < fewFrom ? fine : coarse, ofTraction,
+                ofDisplacement);
+      return;
+    }
+    const Corners middles = (barycentric * (Corners() << 0, 1, 1, 1, 0, 1, 1, 1, 0).finished()) / 2;
+    for (int k = 0; k < 3; ++k) {
+      Corners piece = middles;
+      piece.col(k) = barycentric.col(k);
+      add(point, triangle, piece, ofTraction, ofDisplacement);
+    }
+    add(point, triangle, middles, ofTraction, ofDisplacement);
+  }
+
+  void integrate(const Eigen::Vector3d& point, int triangle, const Corners& barycentric,
+                 const Corners& x, const bem::TriangleRule& rule, Rows& ofTraction,
+                 Rows& ofDisplacement) const {
+    const Material& material = model.material();
+    const Eigen::Vector3d normal = side * mesh.triangleNormals().col(triangle);
+    const double area = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0)).norm() / 2;
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector3d inPiece = rule.barycentric.col(q);
+      const bem::ProbeKernels kernels = bem::probeKernels(
+          x * inPiece - point, normal, material.shearModulus(), material.poissonRatio());
+      const Eigen::Vector3d hats = area * rule.weights[q] * (barycentric * inPiece);
+      for (int k = 0; k < 3; ++k) {
+        const int column = 3 * mesh.triangles()(k, triangle);
+        ofTraction.middleCols<3>(column) += hats[k] * shares(k, triangle) * kernels.ofTraction;
+        ofDisplacement.middleCols<3>(column) += hats[k] * kernels.ofDisplacement;
+      }
+    }
+  }
+
+  Corners corners(int triangle) const {
+    return mesh.points()(Eigen::all, mesh.triangles().col(triangle));
+  }
+
+  const ElasticModel& model;
+  const SurfaceMesh& mesh;
+  Eigen::Matrix3Xd shares;
+  double side;  // of the normals that points out of the material
+  bem::TriangleRule fine = bem::triangleRule(16), coarse = bem::triangleRule(7);
+};
+
+InteriorProbes::InteriorProbes(const ElasticModel& model, const Eigen::Matrix3Xd& points,
+                               const ProgressCallback& callback, int threads)
+    : vertexCount_(model.mesh().vertexCount()),
+      shearModulus_(model.material().shearModulus()),
+      distances_(points.cols()) {
+  constexpr double nearest = 1e-4;  // edges: subdivision goes on until pieces are as small
+  if (model.domain() != Domain::Interior && model.domain() != Domain::Exterior)
+    refuse("points inside are probed in bodies and around cavities, in no other domain");
+  const SurfaceLocator locator(model.sharedMesh());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d point = points.col(i);
+    if (!point.allFinite()) refuse("probe ", i, " is not at a finite place");
+    distances_[i] = (placeOf(model.mesh(), locator.nearest(point)) - point).norm() /
+                    model.mesh().meanEdgeLength();
+    if (locator.isInside(point) != (model.domain() == Domain::Interior) || distances_[i] < nearest)
+      refuse("probe ", i, " at (", point.x(), ", ", point.y(), ", ", point.z(),
+             distances_[i] < nearest ? ") lies on the surface" : ") is not inside the material");
+  }
+  const Integration integration(model);
+  const int count = static_cast<int>(points.cols());
+  ofTraction_.assign(count, Rows::Zero(13, 3 * vertexCount_));
+  ofDisplacement_ = ofTraction_;
+  const Progress progress(callback);
+  parallelFor(
+      count, threadCount(threads),
+      [&](int i, int) {
+        for (int f = 0; f < model.mesh().triangleCount(); ++f)
+          integration.add(points.col(i), f, Corners::Identity(), ofTraction_[i],
+                          ofDisplacement_[i]);
+      },
+      [&](int begun) { progress.report(double(begun) / count, "probe"); });
+}
+
+std::vector<ProbedField> InteriorProbes::evaluate(const Eigen::Matrix3Xd& displacement,
+                                                  const Eigen::Matrix3Xd& traction) const {
+  if (displacement.cols() != vertexCount_ || traction.cols() != vertexCount_)
+    refuse("displacement and traction must be given at ", vertexCount_, " vertices, not at ",
+           displacement.cols(), " and ", traction.cols());
+  std::vector<ProbedField> fields(ofTraction_.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const Eigen::Matrix<double, 13, 1> values =
+        ofTraction_[i] * traction.reshaped() + ofDisplacement_[i] * displacement.reshaped();
+    ProbedField& field = fields[i];
+    field.displacement = values.head<3>();
+    field.gradient = values.segment<9>(3).reshaped<Eigen::RowMajor>(3, 3);
+    const Eigen::Matrix3d strain = field.strain();
+    field.stress = 2 * shearModulus_ * strain;
+    field.stress.diagonal().array() += values[12] - 2 * shearModulus_ * strain.trace() / 3;
+  }
+  return fields;
+}
+
+}  // namespace palpate
