@@ -346,15 +346,16 @@ class AtARate : public AServoLoop, public testing::WithParamInterface<int> {};
 TEST_P(AtARate, TicksKeepTheRealTimeAndMostAreOnTime) {
   ServoSettings settings;
   settings.rate = GetParam();
-  ServoLoop loop(wall_, tools(), settings);
-  const ServoStatistics& statistics = loop.statistics();
   // A machine taken by others is late; one that never keeps its time, in ten runs, is not taken.
   bool kept = false;
+  std::string table;
   for (int run = 0; run < 10 && !kept; ++run) {
+    ServoLoop loop(wall_, tools(), settings);
     startAndTick(loop);
     EXPECT_TRUE(loop.isRunning());
     EXPECT_THROW(loop.runHeadless(1), std::logic_error);
-    loop.clearStatistics();
+    const ServoStatistics& statistics = loop.statistics();
+    const std::int64_t before = statistics.ticks + statistics.missedTicks;
     const auto begin = std::chrono::steady_clock::now();
     sleepFor(0.4);
     loop.stop();
@@ -364,15 +365,16 @@ TEST_P(AtARate, TicksKeepTheRealTimeAndMostAreOnTime) {
     EXPECT_EQ(statistics.compute.count(), statistics.ticks);
     EXPECT_EQ(statistics.lateness.count(), statistics.ticks);
     // Deadlines are absolute: ticks and missed ones add up to the time.
-    const auto all = static_cast<double>(statistics.ticks + statistics.missedTicks);
+    const auto all = static_cast<double>(statistics.ticks + statistics.missedTicks - before);
     kept = std::abs(all - seconds * settings.rate) <= 0.1 * settings.rate &&
            static_cast<double>(statistics.ticks) >= 0.5 * all &&
            statistics.lateness.quantile(0.5) <= 1e-3 &&
            statistics.compute.quantile(0.5) <= 5e-4;  // a wall costs microseconds
+    table = statistics.table();
   }
-  EXPECT_TRUE(kept) << statistics.table();
-  EXPECT_TRUE(contains(statistics.table(), "lateness"));
-  EXPECT_TRUE(contains(statistics.table(), "compute"));
+  EXPECT_TRUE(kept) << table;
+  EXPECT_TRUE(contains(table, "lateness"));
+  EXPECT_TRUE(contains(table, "compute"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Hertz, AtARate, testing::Values(250, 1000, 4000, 10000));
