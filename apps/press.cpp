@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <read_files.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkInteriorProbe.h>
 #include <vtkNew.h>
 #include <vtkPointContact.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSurfaceStress.h>
 
 #include <array>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "commands.h"
 #include "picture/picture.h"
@@ -22,6 +29,8 @@ namespace {
 struct Options {
   std::string input, output;
   std::vector<double> point, displacement, force, torque;
+  std::vector<double> probes;  // three each
+  bool stress = false;
   MaskOptions mask;
   PictureOptions picture;
 };
@@ -47,11 +56,65 @@ void printContact(vtkPolyData* pressed) {
     printRow("turns by, rad", vectorText(fieldVector(pressed, "ContactRotation").data()));
 }
 
+/// By how much linear theory is strained.
+void printValidity(vtkPolyData* pressed) {
+  constexpr double trusted = 0.1;
+  const double largest = fieldNumber(pressed, "LargestDisplacementGradient", 0);
+  printRow("largest displacement gradient", number(largest, 3));
+  if (largest > trusted)
+    printWarning(
+        "displacements change by more than a tenth of the way they change over: linear "
+        "theory is off by more than 5 % there; press less, or spread it by a larger mask");
+}
+
+void printStress(vtkPolyData* pressed) {
+  double range[2];
+  pressed->GetCellData()->GetArray("VonMisesStress")->GetRange(range);
+  printRow("largest von Mises stress at the surface, Pa", number(range[1]));
+}
+
+/// The fields at these places, or null if there are none.
+vtkSmartPointer<vtkPolyData> probe(vtkPolyData* pressed, const std::vector<double>& places) {
+  if (places.empty()) return nullptr;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < places.size(); i += 3) points->InsertNextPoint(&places[i]);
+  vtkNew<vtkPolyData> set;
+  set->SetPoints(points);
+  vtkNew<vtkInteriorProbe> probe;
+  probe->SetInputData(pressed);
+  probe->SetProbeData(set);
+  const auto probed = run(probe);
+  vtkDataArray* inside = probed->GetPointData()->GetArray("InsideMaterial");
+  for (vtkIdType i = 0; i < inside->GetNumberOfTuples(); ++i)
+    if (inside->GetComponent(i, 0) == 0)
+      throw std::invalid_argument("the probe at " + vectorText(points->GetPoint(i)) +
+                                  " is not inside the body");
+  return probed;
+}
+
+void printProbes(vtkPolyData* probed) {
+  for (vtkIdType i = 0; probed && i < probed->GetNumberOfPoints(); ++i) {
+    const auto tuple = [&](const char* name) {
+      return probed->GetPointData()->GetArray(name)->GetTuple(i);
+    };
+    printRow("probe", vectorText(probed->GetPoint(i)));
+    printRow("  moves by", vectorText(tuple("Displacement")));
+    printRow("  von Mises stress, Pa", number(*tuple("VonMisesStress")));
+    printRow("  principal stresses, Pa", vectorText(tuple("PrincipalStress")));
+    if (*tuple("EdgesFromSurface") < 1)
+      printWarning("the probe at " + vectorText(probed->GetPoint(i)) +
+                   " is less than an edge below the surface, whose kinks stresses show there");
+  }
+}
+
 void drawContact(vtkPolyData* pressed, const PictureOptions& options) {
   Picture picture;
   picture.towardsViewer = options.towardsViewer(pressed);
   View before{pressed, "undeformed (support in blue)", "", "", false, {}};
   View after{pressed, "pressed", "Displacement", "displacement\n(m)", true, {}};
+  if (pressed->GetCellData()->HasArray("VonMisesStress"))
+    after = {pressed, "pressed", "VonMisesStress", "von Mises\n(Pa)", true, {}};
   if (options.range.size() == 2) after.range = {options.range[0], options.range[1]};
   picture.views = {before, after};
   drawPicture(picture, options.path);
@@ -81,6 +144,12 @@ void addPress(CLI::App& program) {
                    "And with what torque, N m, spread by a mask of three vertices or more")
       ->expected(3);
   options->mask.addTo(*command);
+  command->add_flag("--stress", options->stress,
+                    "Also strain and stress at the surface; the picture shows von Mises'");
+  command
+      ->add_option("--probe", options->probes,
+                   "Also displacement and stress at these places inside the body")
+      ->type_name("X Y Z ...");
   options->picture.addTo(*command, "the surface before and after");
   command->footer(
       "Give the mask the radius of what touches: a single vertex is softer the finer the mesh.\n"
@@ -89,6 +158,8 @@ void addPress(CLI::App& program) {
     if (options->displacement.empty() && options->force.empty())
       throw CLI::RequiredError("--displacement or --force");
     options->picture.requireSensible();
+    if (options->probes.size() % 3 != 0)
+      throw std::invalid_argument("--probe takes three coordinates a place");
     vtkNew<vtkPointContact> contact;
     contact->SetInputData(readSurface(options->input));
     contact->SetPoint(options->point.data());
@@ -100,10 +171,19 @@ void addPress(CLI::App& program) {
     if (!options->torque.empty()) contact->SetTorque(options->torque.data());
     contact->SetRigidStiffness(options->mask.rigidStiffness);
     contact->SetMeasure(options->mask.measureNumber());
-    const auto pressed = run(contact);
+    auto pressed = run(contact);
+    if (options->stress) {
+      vtkNew<vtkSurfaceStress> stress;
+      stress->SetInputData(pressed);
+      pressed = run(stress);
+    }
+    const auto probed = probe(pressed, options->probes);
     if (!options->output.empty()) writeSurface(pressed, options->output);
     if (!options->picture.path.empty()) drawContact(pressed, options->picture);
     printContact(pressed);
+    if (options->stress) printStress(pressed);
+    printProbes(probed);
+    printValidity(pressed);
   });
 }
 

@@ -102,7 +102,7 @@ void catchInterrupts() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGHUP, &action, nullptr);  // the terminal was closed
-  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure like others
+  signal(SIGXFSZ, SIG_IGN);             // a file that may not grow is a failure like others
 }
 
 bool isInterrupted() {
@@ -167,9 +167,12 @@ void printErrors(vtkPolyData* model) {
   printRow("error by storage", share("StorageError"));
 }
 
+void printWarning(const std::string& sentence) {
+  std::cerr << "palpate: warning: " << sentence << "\n";
+}
+
 void printWarnings(vtkPolyData* surface) {
-  for (const std::string& warning : fieldStrings(surface, "Warnings"))
-    std::cerr << "palpate: warning: " << warning << "\n";
+  for (const std::string& warning : fieldStrings(surface, "Warnings")) printWarning(warning);
 }
 
 void MaskOptions::addTo(CLI::App& command) {

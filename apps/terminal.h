@@ -57,6 +57,9 @@ std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name);
 /// Prints the errors that a model is estimated to have, if it is, as percents.
 void printErrors(vtkPolyData* model);
 
+/// A line on stderr.
+void printWarning(const std::string& sentence);
+
 /// Prints the warnings that a model carries, on stderr.
 void printWarnings(vtkPolyData* surface);
 

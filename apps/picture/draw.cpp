@@ -47,6 +47,8 @@ vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
   for (const std::string& name : {view.colourBy, std::string("BoundaryType")})
     if (vtkDataArray* array = view.surface->GetPointData()->GetArray(name.c_str()))
       shape->GetPointData()->AddArray(array);
+    else if (vtkDataArray* ofCells = view.surface->GetCellData()->GetArray(name.c_str()))
+      shape->GetCellData()->AddArray(ofCells);
   if (!view.deformed) return shape;
   shape->GetPointData()->SetVectors(view.surface->GetPointData()->GetArray("Displacement"));
   vtkNew<vtkWarpVector> warp;
@@ -86,6 +88,10 @@ vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* ar
 
 constexpr int kSharedBarPixels = 150;  ///< what a bar that all views share takes of the width
 
+double largestIn(vtkScalarsToColors* colours) {
+  return std::abs(colours->GetRange()[1]);
+}
+
 /// @param left, width  of the viewport.
 void addBar(vtkRenderer* renderer, vtkScalarsToColors* colours, const std::string& title,
             double left, double width) {
@@ -93,7 +99,8 @@ void addBar(vtkRenderer* renderer, vtkScalarsToColors* colours, const std::strin
   bar->SetLookupTable(colours);
   bar->SetTitle(title.c_str());
   bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.3g");
+  // Three digits, but thousands in full: exponents would not fit.
+  bar->SetLabelFormat(largestIn(colours) >= 1e3 && largestIn(colours) < 1e5 ? "%.0f" : "%.3g");
   bar->SetVerticalTitleSeparation(12);
   bar->SetTextPad(6);
   bar->UnconstrainedFontSizeOn();
@@ -115,8 +122,10 @@ vtkSmartPointer<vtkScalarsToColors> addSurface(vtkRenderer* renderer, const View
   const vtkSmartPointer<vtkPolyData> shape = shapeOf(view);
   const std::string name = view.colourBy.empty() ? "BoundaryType" : view.colourBy;
   vtkDataArray* array = shape->GetPointData()->GetArray(name.c_str());
+  const bool ofPoints = array;
+  if (!ofPoints) array = shape->GetCellData()->GetArray(name.c_str());
   if (!array && !view.colourBy.empty())
-    throw std::runtime_error("there is no point array '" + view.colourBy + "' to colour by");
+    throw std::runtime_error("there is no array '" + view.colourBy + "' to colour by");
 
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(shape);
@@ -135,12 +144,15 @@ vtkSmartPointer<vtkScalarsToColors> addSurface(vtkRenderer* renderer, const View
   renderer->AddActor(actor);
   if (!array) return nullptr;
   const auto colours = coloursOf(view, array);
-  mapper->SetScalarModeToUsePointFieldData();
+  if (ofPoints)
+    mapper->SetScalarModeToUsePointFieldData();
+  else
+    mapper->SetScalarModeToUseCellFieldData();
   mapper->SelectColorArray(name.c_str());
   mapper->SetColorModeToMapScalars();  // bytes are values too, not colours
   mapper->SetLookupTable(colours);
   mapper->UseLookupTableScalarRangeOn();
-  mapper->InterpolateScalarsBeforeMappingOn();
+  if (ofPoints) mapper->InterpolateScalarsBeforeMappingOn();
   return colours;
 }
 

@@ -17,7 +17,7 @@ struct View {
   vtkPolyData* surface;
   std::string title;
   std::string
-      colourBy;  ///< point array; vectors by their length. Empty: fixed against free vertices
+      colourBy;  ///< point or cell array; vectors by their length. Empty: fixed or free vertices
   std::string barTitle;
   bool deformed = false;                       ///< moved by the array Displacement
   std::optional<std::array<double, 2>> range;  ///< of the colours; the array's by default

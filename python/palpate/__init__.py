@@ -19,6 +19,7 @@ from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
 from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
+from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
 from .precomputation import precompute
 from .surfaces import refine, remesh, repair
@@ -35,6 +36,7 @@ __all__ = [
     "greens_functions",
     "precompute",
     "press",
+    "probe",
     "read",
     "read_volume",
     "refine",
@@ -43,5 +45,6 @@ __all__ = [
     "solve",
     "stiffness",
     "stiffness_artifacts",
+    "surface_stress",
     "write",
 ]

@@ -10,7 +10,7 @@ import unittest
 
 import palpate
 import palpate.haptics
-from palpate import arrays, contacts, errors, files, precomputation, surfaces
+from palpate import arrays, contacts, errors, fields, files, precomputation, surfaces
 
 
 class Docstrings(unittest.TestCase):
@@ -25,7 +25,7 @@ class Docstrings(unittest.TestCase):
 
     def test_every_example_runs(self):
         examples = 0
-        for module in (palpate, arrays, contacts, errors, files, precomputation, surfaces,
+        for module in (palpate, arrays, contacts, errors, fields, files, precomputation, surfaces,
                        palpate.haptics):
             failed, attempted = doctest.testmod(module)
             self.assertEqual(failed, 0, module.__name__)

@@ -25,7 +25,38 @@ double longestEdge(const Corners& x) {
                 (x.col(2) - x.col(0)).squaredNorm()}));
 }
 
+constexpr double kNearest = 1e-4;  // edges: subdivision goes on until pieces are as small
+
+class ProbePlaces {
+ public:
+  explicit ProbePlaces(const ElasticModel& model) : model_(model), locator_(model.sharedMesh()) {
+    if (model.domain() != Domain::Interior && model.domain() != Domain::Exterior)
+      refuse("points inside are probed in bodies and around cavities, in no other domain");
+  }
+  /// From the surface, in mean edges.
+  double distance(const Eigen::Vector3d& point) const {
+    return (placeOf(model_.mesh(), locator_.nearest(point)) - point).norm() /
+           model_.mesh().meanEdgeLength();
+  }
+  bool isLegal(const Eigen::Vector3d& point) const {
+    return point.allFinite() && locator_.isInside(point) == (model_.domain() == Domain::Interior) &&
+           distance(point) >= kNearest;
+  }
+
+ private:
+  const ElasticModel& model_;
+  SurfaceLocator locator_;
+};
+
 }  // namespace
+
+std::vector<int> probesInside(const ElasticModel& model, const Eigen::Matrix3Xd& points) {
+  const ProbePlaces places(model);
+  std::vector<int> inside;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (places.isLegal(points.col(i))) inside.push_back(static_cast<int>(i));
+  return inside;
+}
 
 /// Integrals over the surface for one point after the other.
 struct InteriorProbes::Integration {
@@ -92,18 +123,14 @@ InteriorProbes::InteriorProbes(const ElasticModel& model, const Eigen::Matrix3Xd
     : vertexCount_(model.mesh().vertexCount()),
       shearModulus_(model.material().shearModulus()),
       distances_(points.cols()) {
-  constexpr double nearest = 1e-4;  // edges: subdivision goes on until pieces are as small
-  if (model.domain() != Domain::Interior && model.domain() != Domain::Exterior)
-    refuse("points inside are probed in bodies and around cavities, in no other domain");
-  const SurfaceLocator locator(model.sharedMesh());
+  const ProbePlaces places(model);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const Eigen::Vector3d point = points.col(i);
     if (!point.allFinite()) refuse("probe ", i, " is not at a finite place");
-    distances_[i] = (placeOf(model.mesh(), locator.nearest(point)) - point).norm() /
-                    model.mesh().meanEdgeLength();
-    if (locator.isInside(point) != (model.domain() == Domain::Interior) || distances_[i] < nearest)
+    distances_[i] = places.distance(point);
+    if (!places.isLegal(point))
       refuse("probe ", i, " at (", point.x(), ", ", point.y(), ", ", point.z(),
-             distances_[i] < nearest ? ") lies on the surface" : ") is not inside the material");
+             distances_[i] < kNearest ? ") lies on the surface" : ") is not inside the material");
   }
   const Integration integration(model);
   const int count = static_cast<int>(points.cols());

@@ -13,6 +13,12 @@
 
 namespace palpate {
 
+/// Which points probes can be at: inside the material, and no nearer to its surface than 1e-4
+/// edges.
+/// @param points  3 by any.
+/// @throws std::invalid_argument for a domain other than interior and exterior.
+std::vector<int> probesInside(const ElasticModel& model, const Eigen::Matrix3Xd& points);
+
 /// The fields at a point of a body.
 struct ProbedField {
   Eigen::Vector3d displacement;  ///< m

@@ -5,6 +5,7 @@
 
 #include "array_names.h"
 
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -248,6 +249,10 @@ void removeContact(vtkPolyData* surface)
   {
     surface->GetPointData()->RemoveArray(name);
     fieldsOf(surface)->RemoveArray(name);
+  }
+  for (const char* name : arrays::ContactCellResults)
+  {
+    surface->GetCellData()->RemoveArray(name);
   }
 }
 

@@ -37,6 +37,16 @@ constexpr const char* SingleVertexArtifact = "SingleVertexArtifact"; // the same
 constexpr const char* StiffnessJump = "StiffnessJump";     // largest of the vertex's edges, relative
 constexpr const char* StiffnessChange = "StiffnessChange"; // over that of the reference, - 1
 
+// Point data of vtkInteriorProbe; Displacement, too.
+constexpr const char* InsideMaterial = "InsideMaterial";     // 1 inside, 0 elsewhere
+constexpr const char* EdgesFromSurface = "EdgesFromSurface"; // distance in mean edges
+
+// Cell data of vtkSurfaceStress, point data of vtkInteriorProbe.
+constexpr const char* Strain = "Strain";                 // 6: xx, yy, zz, xy, yz, xz
+constexpr const char* Stress = "Stress";                 // 6, the same, Pa
+constexpr const char* VonMisesStress = "VonMisesStress"; // Pa
+constexpr const char* PrincipalStress = "PrincipalStress"; // 3, the largest first, Pa
+
 // Cell data.
 constexpr const char* SmoothPatch = "SmoothPatch"; // int, traction may jump between patches
 
@@ -102,6 +112,9 @@ constexpr const char* ContactForce = "ContactForce";   // 3 a zone, on the body,
 constexpr const char* ContactTorque = "ContactTorque"; // 3 a zone, about the zone's centroid, N m
 constexpr const char* ContactRotation = "ContactRotation"; // 3, mean under the mask, rad
 constexpr const char* ContactCondition = "ContactCondition"; // of the capacitance matrix
+/// Of the surface's displacement gradients the largest spectral norm; from 0.1 on linear theory is not
+/// to be trusted.
+constexpr const char* LargestDisplacementGradient = "LargestDisplacementGradient";
 constexpr const char* ContactPoint = "ContactPoint";               // 3, x^C of [JP01] fig. 8, m
 constexpr const char* ElasticContactPoint = "ElasticContactPoint"; // 3, x^E, m
 constexpr const char* HapticContactPoint = "HapticContactPoint";   // 3, x^H, m
@@ -129,7 +142,10 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   StageNames, Warnings };
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
-  ContactRotation, ContactCondition, ContactPoint, ElasticContactPoint, HapticContactPoint };
+  ContactRotation, ContactCondition, LargestDisplacementGradient, ContactPoint, ElasticContactPoint,
+  HapticContactPoint };
+/// Cell data of one contact.
+constexpr const char* ContactCellResults[] = { Strain, Stress, VonMisesStress, PrincipalStress };
 /// Point data of all contacts with one model, and field data of one mask.
 constexpr const char* StiffnessResults[] = { PressureMask, TorqueMask, Stiffness, StiffnessNorm,
   StiffnessAsymmetry, StiffnessLimited, RotationalStiffness, MaskSupportShare, MaskBeyondShare,

@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "contact/capacitance_solver.h"
 #include "conversion.h"
+#include "greens/surface_fields.h"
 #include "model_arrays.h"
 
 #include "vtkCellData.h"
@@ -325,6 +326,8 @@ void vtkCapacitanceSolve::Compute(
   convert::removeContact(output);
   convert::setPointVectors(output, arrays::Displacement, solution.displacement);
   convert::setPointVectors(output, arrays::Traction, solution.traction);
+  convert::setFieldNumber(output, arrays::LargestDisplacementGradient,
+    palpate::surfaceGradients(mesh, solution.displacement).largest);
   convert::setFieldVectors(output, arrays::ContactForce, forces);
   convert::setFieldVectors(output, arrays::ContactTorque, torques);
   convert::setFieldNumber(output, arrays::ContactCondition, solution.condition);

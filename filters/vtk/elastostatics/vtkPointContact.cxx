@@ -7,6 +7,7 @@
 #include "contact/mask_settings.h"
 #include "contact/point_contact.h"
 #include "conversion.h"
+#include "greens/surface_fields.h"
 #include "model_arrays.h"
 
 #include "vtkObjectFactory.h"
@@ -129,6 +130,8 @@ void vtkPointContact::Compute(vtkPolyData* input, vtkPolyData* output, vtkInform
 
   convert::setPointVectors(output, arrays::Displacement, displacement);
   convert::setPointVectors(output, arrays::Traction, traction);
+  convert::setFieldNumber(output, arrays::LargestDisplacementGradient,
+    palpate::surfaceGradients(mesh, displacement).largest);
   convert::setFieldVector(output, arrays::ContactForce, response.force);
   convert::setFieldVector(output, arrays::ContactPoint, response.staticPoint);
   convert::setFieldVector(output, arrays::ElasticContactPoint, response.elasticPoint);

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "stress_arrays.h"
+
+#include "array_names.h"
+#include "greens/surface_fields.h"
+#include "model_arrays.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace palpate::convert
+{
+namespace
+{
+Eigen::Matrix3Xd contactVectors(vtkPolyData* surface, const char* name)
+{
+  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != 3 ||
+    array->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw std::invalid_argument(std::string("there is no point array '") + name +
+      "' of three components: press the model first (vtkPointContact, vtkCapacitanceSolve)");
+  }
+  Eigen::Matrix3Xd values(3, array->GetNumberOfTuples());
+  for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
+  {
+    array->GetTuple(v, values.col(v).data());
+  }
+  if (!values.allFinite())
+  {
+    throw std::invalid_argument(
+      std::string("the point array '") + name + "' holds values that are not finite");
+  }
+  return values;
+}
+
+/// An array of so many components, filled tuple by tuple.
+template <class Fill>
+void addArray(vtkDataSetAttributes* attributes, const char* name, int components, std::size_t count,
+  const Fill& fill)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    fill(i, array->GetPointer(components * static_cast<vtkIdType>(i)));
+  }
+  attributes->AddArray(array);
+}
+
+/// xx, yy, zz, xy, yz, xz.
+void setSymmetric(const Eigen::Matrix3d& m, double* out)
+{
+  const double values[] = { m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2) };
+  std::copy(values, values + 6, out);
+}
+} // namespace
+
+DeformedBody deformedBodyOf(vtkPolyData* surface)
+{
+  const ServedModel served = servedModelOf(surface);
+  const GreensFunctionsInfo& info = served.greens->info();
+  if (!info.homogeneous || (info.domain != Domain::Interior && info.domain != Domain::Exterior))
+  {
+    throw std::invalid_argument("stresses are computed in bodies of one isotropic material and around "
+                                "cavities, not in this model");
+  }
+  return { ElasticModel(served.mesh, info.material, info.conditions, served.smoothPatches, info.domain),
+    contactVectors(surface, arrays::Displacement), contactVectors(surface, arrays::Traction) };
+}
+
+void setStresses(vtkDataSetAttributes* attributes, const std::vector<Eigen::Matrix3d>& gradients,
+  const std::vector<Eigen::Matrix3d>& stresses)
+{
+  const std::size_t count = gradients.size();
+  addArray(attributes, arrays::Strain, 6, count, [&](std::size_t i, double* out)
+    { setSymmetric((gradients[i] + gradients[i].transpose()) / 2, out); });
+  addArray(attributes, arrays::Stress, 6, count,
+    [&](std::size_t i, double* out) { setSymmetric(stresses[i], out); });
+  addArray(attributes, arrays::VonMisesStress, 1, count,
+    [&](std::size_t i, double* out) { *out = vonMisesStress(stresses[i]); });
+  addArray(attributes, arrays::PrincipalStress, 3, count, [&](std::size_t i, double* out)
+    { std::copy_n(principalStresses(stresses[i]).data(), 3, out); });
+}
+} // namespace palpate::convert

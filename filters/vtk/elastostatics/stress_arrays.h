@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef palpate_stress_arrays_h
+#define palpate_stress_arrays_h
+
+#include "model/elastic_model.h"
+
+#include <Eigen/Core>
+#include <vector>
+
+class vtkDataSetAttributes;
+class vtkPolyData;
+
+/// Stresses as arrays, and what they are computed from. Not for wrapping. All functions throw
+/// std::invalid_argument with a sentence for data that cannot be used.
+namespace palpate::convert
+{
+/// A deformed body with all that its surface is known to do.
+struct DeformedBody
+{
+  ElasticModel model;
+  Eigen::Matrix3Xd displacement, traction; // 3 by #points
+};
+
+/// A model with the arrays Displacement and Traction of a contact.
+/// @throws also for a half-space, and for bodies of several or anisotropic materials.
+DeformedBody deformedBodyOf(vtkPolyData* surface);
+
+/// Adds Strain, Stress (six components each, as VTK orders them), VonMisesStress and PrincipalStress.
+void setStresses(vtkDataSetAttributes* attributes, const std::vector<Eigen::Matrix3d>& gradients,
+  const std::vector<Eigen::Matrix3d>& stresses);
+} // namespace palpate::convert
+
+#endif
