@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 from .arguments import (
     flag,
     number,
+    numbers,
     positive,
     progress_callback,
     set_mask,
@@ -28,7 +29,8 @@ from .PalpateElastostatics import (
 __all__ = ["press", "solve", "stiffness", "stiffness_artifacts"]
 
 
-def solve(model, nodes, displacements, free_tractions=None, face_tractions=None):
+def solve(model, nodes, displacements, free_tractions=None, face_tractions=None, *, springs=None,
+          foundation=None):
     """Displace some vertices and solve for all displacements, tractions and the contact force.
 
     Parameters
@@ -47,6 +49,12 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     face_tractions : array_like, optional
         One by 3 for each triangle, pascals: tractions that may jump across sharp edges. Needs
         `patch_columns` where the surface has sharp edges.
+    springs : array_like of float, optional
+        s stiffnesses, N/m: the displacement is then that of the far end of a spring that holds the
+        vertex; 0 for a vertex that is moved itself.
+    foundation : float, optional
+        N/m per square metre: all fixed vertices not in `nodes` rest on springs of this stiffness times
+        their area instead, all directions alike. Needs their columns.
 
     Returns
     -------
@@ -72,6 +80,15 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
     count = surface_of(model).GetNumberOfPoints()
     nodes = vertex_list(nodes, count, "nodes")
     values = vectors(displacements, nodes.size, "displacements")
+    stiffnesses = np.zeros(nodes.size) if springs is None else numbers(springs, "springs")
+    if stiffnesses.shape != nodes.shape:
+        raise Error(f"springs must be {nodes.size} stiffnesses, not {'x'.join(map(str, stiffnesses.shape))}")
+    if foundation is not None:
+        areas = positive(foundation, "foundation") * array(model, "VertexArea")
+        rest = np.setdiff1d(np.flatnonzero(array(model, "BoundaryType")), nodes)
+        nodes = np.concatenate([nodes, rest])
+        values = np.concatenate([values, np.zeros((rest.size, 3))])
+        stiffnesses = np.concatenate([stiffnesses, areas[rest]])
     types = np.ones(nodes.size)
     tractions = np.zeros_like(values)
     if free_tractions is not None:
@@ -86,10 +103,12 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None)
         values = np.concatenate([values, np.zeros((loaded.size, 3))])
         tractions = np.concatenate([tractions, given[loaded]])
         types = np.concatenate([types, np.zeros(loaded.size)])
+        stiffnesses = np.concatenate([stiffnesses, np.zeros(loaded.size)])
 
     table = vtkTable()
     for column in (as_ids(nodes, "Node"), as_vtk(values, "Displacement", 3),
-                   as_vtk(tractions, "Traction", 3), as_vtk(types, "BoundaryType", 1, np.uint8)):
+                   as_vtk(tractions, "Traction", 3), as_vtk(types, "BoundaryType", 1, np.uint8),
+                   as_vtk(stiffnesses, "SpringStiffness", 1)):
         table.GetRowData().AddArray(column)
     solver = vtkCapacitanceSolve()
     surface = vtkPolyData()

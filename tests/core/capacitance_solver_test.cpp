@@ -117,7 +117,8 @@ TEST_F(CapacitanceSolverOfASphere, MixedDirectionsSolveTheBoundaryIntegralEquati
     const BoundarySolution solution = solver.solve(values);
     // What was switched is as prescribed,
     for (std::size_t k = 0; k < values.switches.size(); ++k) {
-      const auto& [node, direction] = values.switches[k];
+      const int node = values.switches[k].node;
+      const Eigen::Vector3d direction = values.switches[k].direction;
       const bool released = body_->greens->isFixed(node);
       const Eigen::Matrix3Xd& nowGiven = released ? solution.traction : solution.displacement;
       EXPECT_NEAR(direction.dot(nowGiven.col(node)), values.prescribed[k],
@@ -195,6 +196,62 @@ TEST_F(CapacitanceSolverOfASphere, TheOrderOfTheConstraintsDoesNotMatter) {
                   1e-13 * solution.switchedValues.norm());
   }
   EXPECT_EQ(solver.cachedCount(), 1);
+}
+
+/// Springs' forces are those of their own stretch, and all else is the body's own equations.
+TEST_F(CapacitanceSolverOfASphere, SpringsBearWhatTheirStretchAsksFor) {
+  CapacitanceSolver solver(body_->greens, body_->mesh);
+  const GreensFunctions& greens = *body_->greens;
+  const std::vector<int> free = greens.info().conditions.freeNodes(),
+                         fixed = greens.info().conditions.fixedNodes();
+  const int pressed = free[3], released = fixed[1];
+  const Eigen::Vector3d along = Eigen::Vector3d(1, -2, 2) / 3;
+  for (double stiffness : {1e-4, 1.0, 1e4}) {
+    const double pressedArea = greens.vertexArea(pressed), area = greens.vertexArea(released);
+    BoundaryValues values;
+    values.switches = {{pressed, along, pressedArea / stiffness}};
+    for (int k = 0; k < 3; ++k)
+      values.switches.push_back({released, Eigen::Vector3d::Unit(k), stiffness / area});
+    values.prescribed = Eigen::Vector4d(0.3, 0.02, -0.01, 0.04);
+    values.given = randomValues();
+    const BoundarySolution found = solver.solve(values);
+    const double stretch = 0.3 - along.dot(found.displacement.col(pressed));
+    const Eigen::Vector3d across = found.traction.col(pressed) - values.given.col(pressed);
+    EXPECT_NEAR(pressedArea * along.dot(found.traction.col(pressed)), stiffness * stretch,
+                1e-9 * (1 + stiffness * std::abs(stretch)));
+    EXPECT_LE((across - along.dot(across) * along).norm(), 1e-12);
+    EXPECT_LE((area * found.traction.col(released) -
+               (area * values.prescribed.tail<3>() - stiffness * found.displacement.col(released)))
+                  .norm(),
+              1e-9 * (1 + stiffness));
+    // The reference problem with what came out as given gives the same.
+    Eigen::Matrix3Xd all = values.given;
+    all.col(pressed) = found.traction.col(pressed);
+    all.col(released) = found.displacement.col(released);
+    const Eigen::Matrix3Xd again = solveReferenceProblem(greens, all);
+    EXPECT_LE((again.col(pressed) - found.displacement.col(pressed)).norm(), 1e-9);
+    EXPECT_LE((again.col(released) - found.traction.col(released)).norm(),
+              1e-9 * (1 + found.traction.col(released).norm()));
+  }
+}
+
+TEST_F(CapacitanceSolverOfASphere, ABodyOnSpringsAloneIsHeldByThem) {
+  CapacitanceSolver solver(body_->greens, body_->mesh);
+  const GreensFunctions& greens = *body_->greens;
+  BoundaryValues values =
+      switchWholeNodes(greens.info().conditions.fixedNodes(),
+                       Eigen::Matrix3Xd::Zero(3, greens.info().conditions.fixedNodes().size()));
+  for (ConstraintSwitch& s : values.switches) s.yield = 1e-6;  // Pa/m: far softer than the body
+  values.given = Eigen::Matrix3Xd::Zero(3, nodeCount());
+  const int top = greens.info().conditions.freeNodes()[0];
+  values.given.col(top).z() = 1;
+  const BoundarySolution found = solver.solve(values);
+  double held = 0;
+  for (int v : greens.info().conditions.fixedNodes())
+    held += greens.vertexArea(v) * found.traction(2, v);
+  EXPECT_NEAR(held, -greens.vertexArea(top), 1e-3 * greens.vertexArea(top));  // condition 1e6
+  for (ConstraintSwitch& s : values.switches) s.yield = -1;
+  EXPECT_TRUE(isRefused([&] { solver.solve(values); }, "must yield by a number from 0 on"));
 }
 
 TEST_F(CapacitanceSolverOfASphere, NoSwitchIsTheReferenceProblemItself) {

@@ -31,6 +31,9 @@ void requireSwitches(const GreensFunctions& greens, const std::vector<Constraint
       text << "node " << s.node << " is constrained twice along the same direction";
     else if (ofNode.size() == 3)
       text << "node " << s.node << " has more than three constraints";
+    if (!(s.yield >= 0 && std::isfinite(s.yield)))
+      text << "the spring of the constraint at node " << s.node << " must yield by a number from 0 "
+           << "on, not by " << s.yield;
     if (!text.str().empty()) throw std::invalid_argument(text.str());
     ofNode.push_back(s.direction);
   }
@@ -123,8 +126,9 @@ void CapacitanceMatrix::gatherAll() {
     for (int k = 0; k < size(); ++k)
       column(compliance_, l)[k] =
           rowScale(switches_[k].node) * columnScale(switches_[l].node) *
-          switches_[k].direction.dot(blocks.block<3, 3>(place[k], place[l]) *
-                                     switches_[l].direction);
+          (switches_[k].direction.dot(blocks.block<3, 3>(place[k], place[l]) *
+                                      switches_[l].direction) +
+           (k == l ? switches_[k].yield : 0));
 }
 
 bool CapacitanceMatrix::contains(int node) const {

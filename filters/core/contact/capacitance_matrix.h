@@ -20,19 +20,24 @@ namespace palpate {
 struct ConstraintSwitch {
   int node;
   Eigen::Vector3d direction;  ///< unit vector
+  /// What the constraint itself gives way, 0 for nothing: at a free node, area over the stiffness
+  /// of a spring whose far end has the prescribed displacement (m/Pa); at a released fixed node,
+  /// stiffness over area of a spring to where it was fixed (Pa/m).
+  double yield = 0;
   bool isUnit() const { return std::abs(direction.norm() - 1) < 1e-6; }
 };
 
 /// @throws std::invalid_argument for a node without column, a direction that is not a unit vector
-/// or
-///         named twice at a node, or more than three of them at a node.
+///         or named twice at a node, more than three of them at a node, or a yield that is negative
+///         or not finite.
 void requireSwitches(const GreensFunctions& greens, const std::vector<ConstraintSwitch>& switches);
 
 /// The three switches of a whole node.
 std::vector<ConstraintSwitch> switchesOfNodes(const std::vector<int>& nodes);
 
 /// The capacitance matrix C = -E^T Xi E of a set of switched constraints ([JP01] eq. 19; the
-/// columns of E are node times direction) with its explicit inverse. Adding or removing a node
+/// columns of E are node times direction), less the constraints' own yields on its diagonal, with
+/// its explicit inverse. Adding or removing a node
 /// costs O(s^2).
 ///
 /// Inside, rows and columns are scaled to be non-dimensional and tractions are forces, so that the

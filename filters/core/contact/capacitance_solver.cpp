@@ -16,7 +16,7 @@ namespace palpate {
 namespace {
 
 bool sameSwitch(const ConstraintSwitch& a, const ConstraintSwitch& b) {
-  return a.node == b.node && a.direction == b.direction;
+  return a.node == b.node && a.direction == b.direction && a.yield == b.yield;
 }
 
 bool switchOrder(const ConstraintSwitch& a, const ConstraintSwitch& b) {
@@ -92,7 +92,7 @@ void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& sw
       }
     }
     for (const ConstraintSwitch& s : switches)
-      if (mesh_->bodyOfVertex(s.node) == body && !greens_->isFixed(s.node)) {
+      if (mesh_->bodyOfVertex(s.node) == body && (!greens_->isFixed(s.node) || s.yield > 0)) {
         points.push_back(mesh_->points().col(s.node));
         directions.push_back(s.direction);
       }

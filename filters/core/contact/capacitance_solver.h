@@ -19,8 +19,8 @@ namespace palpate {
 struct BoundaryValues {
   /// Changed constraints. Two at one node must not be parallel.
   std::vector<ConstraintSwitch> switches;
-  /// A value a switch: displacement along its direction (m) at a free node, traction (Pa) at a
-  /// released fixed node.
+  /// A value a switch: displacement along its direction (m) at a free node, of the far end of its
+  /// spring if it has one; traction (Pa) at a released fixed node, besides that of its spring.
   Eigen::VectorXd prescribed;
   /// 3 by #nodes, what the reference BVP prescribes: traction (Pa) at free, displacement (m) at
   /// fixed nodes. Components that are switched do not count. Empty for all zero.

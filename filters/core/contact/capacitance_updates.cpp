@@ -30,7 +30,9 @@ bool CapacitanceMatrix::canAdd(const ConstraintSwitch* switches, int count) cons
   const int node = switches[0].node;
   if (node < 0 || node >= greens_->nodeCount() || !greens_->hasColumn(node)) return false;
   for (int k = 0; k < count; ++k)
-    if (switches[k].node != node || !switches[k].isUnit()) return false;
+    if (switches[k].node != node || !switches[k].isUnit() || !(switches[k].yield >= 0) ||
+        !std::isfinite(switches[k].yield))
+      return false;
   const auto present = std::count_if(switches_.begin(), switches_.end(),
                                      [&](const ConstraintSwitch& s) { return s.node == node; });
   return present + count <= 3;
@@ -77,7 +79,8 @@ CapacitanceMatrix::Pivot CapacitanceMatrix::ownBlock(const ConstraintSwitch* swi
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j)
       block(i, j) = rowScale(node) * columnScale(node) *
-                    switches[i].direction.dot(own * switches[j].direction);
+                    (switches[i].direction.dot(own * switches[j].direction) +
+                     (i == j ? switches[i].yield : 0));
   return block;
 }
 

@@ -130,6 +130,7 @@ constexpr const char* StiffnessChangeMeasures =
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
+constexpr const char* SpringStiffness = "SpringStiffness"; // N/m, optional: a spring to the displacement
 constexpr const char* Zone = "Zone";           // int, optional: whose force it counts to
 
 /// Field data of one computation of Green's functions.

@@ -117,6 +117,7 @@ public:
     this->Type = this->Find(attributes, arrays::BoundaryType, 1);
     this->Direction = this->Find(attributes, arrays::Direction, 3);
     this->ZoneNumber = this->Find(attributes, arrays::Zone, 1);
+    this->Spring = this->Find(attributes, arrays::SpringStiffness, 1);
     this->RequireBoundaryTypes();
   }
 
@@ -132,6 +133,19 @@ public:
   Eigen::Vector3d GetValue(vtkIdType i) const
   {
     return VectorOf(this->IsDisplacement(i) ? this->Displacement : this->Traction, i);
+  }
+  /// N/m, 0 for none.
+  double GetSpring(vtkIdType i) const
+  {
+    const double stiffness = this->Spring ? this->Spring->GetComponent(i, 0) : 0;
+    if (!(stiffness >= 0 && std::isfinite(stiffness)) || (stiffness > 0 && !this->IsDisplacement(i)))
+    {
+      throw std::invalid_argument("the spring of constraint " + std::to_string(i) +
+        (stiffness > 0 && std::isfinite(stiffness)
+            ? " goes with a displacement, not with a traction"
+            : " must have a stiffness from 0 on, not " + std::to_string(stiffness)));
+    }
+    return stiffness;
   }
   Eigen::Vector3d GetDirection(vtkIdType i) const { return VectorOf(this->Direction, i); }
 
@@ -177,7 +191,7 @@ private:
 
   vtkIdType Count = 0;
   vtkDataArray *Node = nullptr, *Displacement = nullptr, *Traction = nullptr, *Type = nullptr,
-               *Direction = nullptr, *ZoneNumber = nullptr;
+               *Direction = nullptr, *ZoneNumber = nullptr, *Spring = nullptr;
 };
 
 /// The table as switches and given values. What agrees with the reference problem (a traction at a
@@ -195,12 +209,20 @@ struct Problem
     for (vtkIdType i = 0; i < table.GetCount(); ++i)
     {
       const int node = convert::vertexNumber(table.GetNode(i), count, "constraint ", i);
-      const Eigen::Vector3d value = table.GetValue(i), direction = table.GetDirection(i);
+      const Eigen::Vector3d direction = table.GetDirection(i);
+      Eigen::Vector3d value = table.GetValue(i);
+      const double spring = table.GetSpring(i), area = greens.vertexArea(node);
+      double yield = 0;
+      if (spring > 0)
+      {
+        yield = greens.isFixed(node) ? spring / area : area / spring;
+        value *= greens.isFixed(node) ? yield : 1; // a traction there: that of the spring at rest
+      }
       if (table.IsDisplacement(i))
       {
         this->Zones[table.GetZone(i)].insert(node);
       }
-      if (greens.isFixed(node) == table.IsDisplacement(i))
+      if (spring == 0 && greens.isFixed(node) == table.IsDisplacement(i))
       {
         this->AddGiven(node, value, direction);
         continue;
@@ -209,13 +231,13 @@ struct Problem
       {
         for (int c = 0; c < 3; ++c)
         {
-          this->Values.switches.push_back({ node, Eigen::Vector3d::Unit(c) });
+          this->Values.switches.push_back({ node, Eigen::Vector3d::Unit(c), yield });
           prescribed.push_back(value[c]);
         }
       }
       else
       {
-        this->Values.switches.push_back({ node, direction.normalized() });
+        this->Values.switches.push_back({ node, direction.normalized(), yield });
         prescribed.push_back(value.dot(direction.normalized()));
       }
     }

@@ -13,6 +13,9 @@
  * - `Direction` (3, optional): only the component along this vector is switched, as in frictionless
  *   contact; zero for the whole vector. No two at a vertex may be the same, and what moves a fixed or
  *   loads a free one must be at right angles;
+ * - `SpringStiffness` (N/m, optional): the displacement is not the vertex's but that of the far end of a
+ *   spring of this stiffness that holds it; 0 for none. A fixed vertex is released onto its spring. Not
+ *   with a prescribed traction;
  * - `Zone` (int, optional): the contact that the vertex belongs to; default 0.
  *
  * Output: the surface with `Displacement` and `Traction` at all vertices, and the field arrays
