@@ -36,21 +36,27 @@ forbid("a producer of Green's functions includes a consumer" FILES ${core}/bem/*
   ${core}/halfspace/*.h ${core}/halfspace/*.cpp
   PATTERN "${include}(contact|haptics)/")
 forbid("a producer of Green's functions includes a consumer or another producer"
-  FILES ${core}/fem/*.h ${core}/fem/*.cpp PATTERN "${include}(bem|contact|haptics|halfspace|identification)/")
+  FILES ${core}/fem/*.h ${core}/fem/*.cpp
+  PATTERN "${include}(bem|contact|haptics|halfspace|identification|shell)/")
+forbid("a producer of Green's functions includes a consumer or another producer"
+  FILES ${core}/shell/*.h ${core}/shell/*.cpp
+  PATTERN "${include}(bem|contact|fem|haptics|halfspace|identification)/")
 forbid("a producer of Green's functions includes another" FILES ${core}/halfspace/*.h ${core}/halfspace/*.cpp
-  PATTERN "${include}(bem|fem|identification)/")
+  PATTERN "${include}(bem|fem|identification|shell)/")
+forbid("a producer of Green's functions includes another" FILES ${core}/bem/*.h ${core}/bem/*.cpp
+  PATTERN "${include}(fem|halfspace|identification|shell)/")
 forbid("contact includes the haptic room" FILES ${core}/contact/*.h ${core}/contact/*.cpp
   PATTERN "${include}haptics/")
 forbid("a consumer of Green's functions includes a producer"
   FILES ${core}/contact/*.h ${core}/contact/*.cpp ${core}/haptics/*.h ${core}/haptics/*.cpp
-  PATTERN "${include}(bem|fem|halfspace|identification)/")
+  PATTERN "${include}(bem|fem|halfspace|identification|shell)/")
 forbid("Green's functions include a producer or a consumer"
   FILES ${core}/greens/*.h ${core}/greens/*.cpp
-  PATTERN "${include}(bem|fem|halfspace|identification|contact|haptics)/")
+  PATTERN "${include}(bem|fem|halfspace|identification|shell|contact|haptics)/")
 forbid("the accuracy room includes another" FILES ${core}/accuracy/*.h ${core}/accuracy/*.cpp
-  PATTERN "${include}(mesh|model|bem|halfspace|greens|contact|haptics)/")
+  PATTERN "${include}(mesh|model|bem|halfspace|shell|greens|contact|haptics)/")
 forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/mesh/*.cpp
-  PATTERN "${include}(model|bem|halfspace|greens|contact|haptics)/")
+  PATTERN "${include}(model|bem|halfspace|shell|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
   PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
   EXCEPT "filters/core/(simd/|mesh/(cgal|open_mesh)_surface[.]h|haptics/json_reader[.]h)")
@@ -74,7 +80,7 @@ forbid("JSON outside the header that reads it"
 forbid("a filter includes an app" FILES ${SOURCE}/filters/vtk/*.h ${SOURCE}/filters/vtk/*.cxx
   PATTERN "${include}(apps|picture|terminal|commands)")
 forbid("a public VTK header includes the core or Eigen" FILES ${SOURCE}/filters/vtk/*/vtk*.h
-  PATTERN "${include}(Eigen|mesh/|model/|bem/|halfspace/|greens/|contact/|haptics/)")
+  PATTERN "${include}(Eigen|mesh/|model/|bem/|halfspace/|shell/|greens/|contact/|haptics/)")
 forbid("batch filters include rendering or devices"
   FILES ${SOURCE}/filters/vtk/elastostatics/* ${SOURCE}/filters/vtk/io/*
   PATTERN "${include}(vtkRender|vtkActor|vtkInteractor|hidapi)")

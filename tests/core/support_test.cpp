@@ -46,6 +46,17 @@ double largestDisplacement(const RigidMotion& motion, const Eigen::Matrix3Xd& po
   return largest;
 }
 
+TEST(LeastResistedMotion, RotationsHeldAnywhereLeaveTranslationsAlone) {
+  const Eigen::Matrix3Xd none(3, 0), point = Eigen::Matrix3Xd::Zero(3, 3),
+                                     directions = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3Xd axes = Eigen::Matrix3d::Identity();
+  const RigidMotion free = leastResistedMotion(none, none, 2, axes);
+  EXPECT_LT(free.resistance, 1e-15);
+  EXPECT_LT(free.rotation.norm(), 1e-15);
+  EXPECT_GT(leastResistedMotion(point, directions, 2, axes).resistance, 0.1);
+  EXPECT_LT(leastResistedMotion(point, directions, 2, axes.leftCols(2)).resistance, 1e-15);
+}
+
 TEST(LeastResistedMotion, AFreeMotionMovesNoConstraint) {
   // A ball joint and a roller: the motion left is the rotation about the line through both.
   Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 5), directions(3, 5);

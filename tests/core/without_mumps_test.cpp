@@ -8,6 +8,7 @@
 #include "support/problems.h"
 #include "support/refusals.h"
 #include "support/solids.h"
+#include "support/thin_shells.h"
 
 namespace palpate::test {
 namespace {
@@ -19,7 +20,15 @@ TEST(WithoutMumps, FiniteElementsSayWhatIsMissing) {
       boundaryOf(mesh), [](const Eigen::Vector3d& x) { return x.z() == 0; }, 1, 0.3);
   const SolidBody body(model.mesh(), mesh, {Elasticity(model.material())});
   EXPECT_EQ(refusal<std::runtime_error>([&] { computeFiniteElementGreensFunctions(model, body); }),
-            "finite elements need MUMPS, which this build of Palpate was made without");
+            "finite elements and shells need MUMPS, which this build of Palpate was made without");
+}
+
+TEST(WithoutMumps, ShellsSayWhatIsMissing) {
+  EXPECT_EQ(
+      refusal<std::runtime_error>([] {
+        shellProblem(plate(1, 2), [](const Eigen::Vector3d& x) { return x.x() < 0; }).greens();
+      }),
+      "finite elements and shells need MUMPS, which this build of Palpate was made without");
 }
 
 }  // namespace

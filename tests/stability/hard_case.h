@@ -24,8 +24,8 @@ namespace palpate::test {
 /// of the tests in their source.
 class HardCase {
  public:
-  /// @param area    material, scale, mesh, edges, thin, supports, capacitance, masks, stiffness or
-  ///                half-space.
+  /// @param area    material, scale, mesh, edges, thin, supports, capacitance, masks, stiffness,
+  ///                half-space or shells.
   /// @param name    what is hard.
   /// @param danger  what could go wrong.
   HardCase(std::string area, std::string name, std::string danger)

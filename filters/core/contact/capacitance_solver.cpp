@@ -78,11 +78,13 @@ void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& sw
     std::vector<Eigen::Vector3d> points, directions;
     Eigen::AlignedBox3d box;
     int first = -1;
+    bool turns = true;
     for (int node = 0; node < mesh_->vertexCount(); ++node) {
       if (mesh_->bodyOfVertex(node) != body) continue;
       const Eigen::Vector3d x = mesh_->points().col(node);
       box.extend(x);
       if (first < 0) first = node;
+      if (greens_->info().rotationsHeld && greens_->isFixed(node)) turns = false;
       // What is constrained: the axes that releases leave of a fixed node.
       for (int c = 0; c < 3 && greens_->isFixed(node); ++c) {
         const Eigen::Vector3d left = withoutSwitched(Eigen::Vector3d::Unit(c), switches, node);
@@ -101,8 +103,9 @@ void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& sw
       pointMatrix.col(i) = points[i];
       directionMatrix.col(i) = directions[i];
     }
+    const Eigen::Matrix3Xd axes = Eigen::Matrix3d::Identity().leftCols(turns ? 0 : 3);
     const RigidMotion motion =
-        leastResistedMotion(pointMatrix, directionMatrix, box.diagonal().norm());
+        leastResistedMotion(pointMatrix, directionMatrix, box.diagonal().norm(), axes);
     if (motion.resistance < kSmallestResistance)
       throw std::invalid_argument("releasing these nodes would leave a rigid motion free (" +
                                   motion.describe() + ") of the body of vertex " +

@@ -30,6 +30,9 @@ Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const Surfac
     throw std::invalid_argument(
         info.domain == Domain::HalfSpace
             ? "the weight of a half-space is infinite: it sinks without end under its own"
+        : info.domain == Domain::Shell
+            ? "the weight of a shell goes with its thickness, which its Green's functions do not "
+              "know: give it as tractions, density times thickness times gravity"
             : "the space around a surface has no weight that it could bear");
   if (!info.homogeneous)
     throw std::invalid_argument(

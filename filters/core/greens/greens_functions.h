@@ -35,6 +35,7 @@ struct GreensFunctionsInfo {
   Material material{1, 0};        ///< as served
   bool homogeneous = true;        ///< of this material all through; else it is a unit of stiffness
   Domain domain = Domain::Interior;
+  bool rotationsHeld = false;             ///< of fixed nodes, too, as of clamped shells
   Eigen::VectorXd vertexAreas;            ///< #nodes, eq. 5
   std::vector<int> columnNodes;           ///< nodes whose columns are stored, in storage order
   std::vector<PatchColumn> patchColumns;  ///< extra columns, in storage order

@@ -28,7 +28,8 @@ Call loadMumps() {
   void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
   if (!library)
     throw std::runtime_error(
-        std::string("finite elements need the library MUMPS (Debian: libmumps-seq-5.5): ") +
+        std::string(
+            "finite elements and shells need the library MUMPS (Debian: libmumps-seq-5.5): ") +
         dlerror());
   const auto call = reinterpret_cast<Call>(dlsym(library, "dmumps_c"));
   if (!call) throw std::runtime_error(std::string(kLibrary) + " has no function dmumps_c");

@@ -13,7 +13,7 @@ struct SparseFactorization::Instance {};
 
 SparseFactorization::SparseFactorization(SymmetricEntries, int, bool) {
   throw std::runtime_error(
-      "finite elements need MUMPS, which this build of Palpate was made without");
+      "finite elements and shells need MUMPS, which this build of Palpate was made without");
 }
 SparseFactorization::~SparseFactorization() = default;
 void SparseFactorization::solve(Eigen::Ref<Eigen::MatrixXd>) const {}

@@ -45,8 +45,9 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
 
   if (domain_ == Domain::HalfSpace)
     requireHalfSpace();
-  else if (mesh_->rims() == Rims::Allowed)
-    throw std::invalid_argument("a sheet with rims bounds a half-space alone, no other domain");
+  else if (mesh_->rims() == Rims::Allowed && rimsOf(domain_) == Rims::Refused)
+    throw std::invalid_argument(
+        "a sheet with rims bounds a half-space or is a shell's middle, it bounds no other domain");
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
   for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
     if (mesh_->isCavity(shell))

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "mesh/rims.h"
 #include "mesh/surface_mesh.h"
 #include "model/boundary_conditions.h"
 #include "model/material.h"
@@ -18,7 +19,13 @@ enum class Domain {
   Interior,
   Exterior,   ///< infinite space around the surface; needs no support, as displacements fade away
   HalfSpace,  ///< all below the plane that the surface is a part of; needs no support
+  Shell,      ///< a thin layer about the surface, its middle; what holds it, ThinShell says
 };
+
+/// Whether the surface of a domain may end.
+constexpr Rims rimsOf(Domain domain) {
+  return domain == Domain::HalfSpace || domain == Domain::Shell ? Rims::Allowed : Rims::Refused;
+}
 
 /// A reference boundary value problem: surface, material, and what is given where ([JP01] section
 /// 4.1).
@@ -29,7 +36,7 @@ class ElasticModel {
   /// @throws std::invalid_argument if sizes differ, if no node is free, if the support leaves a
   ///         rigid motion of an interior domain's body free, if an exterior domain has nested
   ///         shells, if a surface of those has rims, or if a half-space has a fixed node or a
-  ///         surface that is not flat (planeOf).
+  ///         surface that is not flat (planeOf). A shell's support is for ThinShell to check.
   ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
                Domain domain = Domain::Interior);

@@ -30,17 +30,18 @@ std::string RigidMotion::describe() const {
 }
 
 RigidMotion leastResistedMotion(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& directions,
-                                double bodySize) {
+                                double bodySize, const Eigen::Matrix3Xd& axes) {
   const Eigen::Index count = points.cols();
   const Eigen::Vector3d middle =
       count > 0 ? Eigen::Vector3d(points.rowwise().mean()) : Eigen::Vector3d::Zero();
   // Six zero rows keep the decomposition defined for fewer than six constraints.
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count + 6, 6);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count + axes.cols() + 6, 6);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Vector3d arm = (points.col(i) - middle) / bodySize;
     rows.row(i) << directions.col(i).transpose(), arm.cross(directions.col(i)).transpose();
   }
-  rows /= std::sqrt(std::max<double>(1, count));
+  rows.middleRows(count, axes.cols()).rightCols<3>() = axes.transpose();
+  rows /= std::sqrt(std::max<double>(1, count + axes.cols()));
   const Eigen::MatrixXd triangle = Eigen::HouseholderQR<Eigen::MatrixXd>(rows)
                                        .matrixQR()
                                        .topRows(6)

@@ -27,8 +27,9 @@ constexpr double kSmallestResistance = 1e-6;
 /// @param points      3 by #constraints, where displacements are prescribed.
 /// @param directions  3 by #constraints, unit vectors along which they are.
 /// @param bodySize    a length that scales rotations, such as the body's bounding-box diagonal.
+/// @param axes        3 by any, unit vectors about which rotations are prescribed somewhere.
 RigidMotion leastResistedMotion(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& directions,
-                                double bodySize);
+                                double bodySize, const Eigen::Matrix3Xd& axes = {});
 
 /// @param nodes  fixed nodes, all three directions of each.
 /// @throws std::invalid_argument naming the body and the motion if the nodes leave a rigid motion

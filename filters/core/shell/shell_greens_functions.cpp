@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "shell/shell_greens_functions.h"
+
+#include <sstream>
+#include <utility>
+
+#include "greens/reciprocity.h"
+#include "shell/shell_response.h"
+#include "shell/shell_system.h"
+#include "shell/shell_warnings.h"
+#include "stopwatch.h"
+
+namespace palpate {
+namespace {
+
+/// From the units of the system to those of the model: per pascal or metre, as metres or pascals.
+void scaleToModel(const GreensFunctionsInfo& info, double length, Eigen::Ref<Eigen::MatrixXd> all) {
+  const double young = info.material.youngsModulus();
+  for (std::size_t c = 0; c < info.columnNodes.size(); ++c) {
+    const int node = info.columnNodes[c];
+    const bool ofDisplacement = info.conditions.isFixed(node);
+    const double perGiven =
+        ofDisplacement ? 1 / length : info.vertexAreas[node] / (young * length * length);
+    auto columns = all.middleCols<3>(3 * c);
+    for (int v = 0; v < info.conditions.nodeCount(); ++v)
+      columns.middleRows<3>(3 * v) *=
+          perGiven *
+          (info.conditions.isFixed(v) ? young * length * length / info.vertexAreas[v] : length);
+  }
+}
+
+std::string describeSource(const ElasticModel& model, const ThinShell& shell) {
+  std::ostringstream text;
+  text << "thin shell (DKT and OPT triangles, " << model.mesh().triangleCount()
+       << " of them, thickness " << shell.thinnest();
+  if (shell.thickest() > shell.thinnest()) text << " to " << shell.thickest();
+  text << ", " << (shell.isClamped() ? "clamped" : "hinged") << ")";
+  return text.str();
+}
+
+}  // namespace
+
+ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
+                                                    const ThinShell& shell,
+                                                    const ShellOptions& options,
+                                                    const ProgressCallback& callback) {
+  const Progress progress(callback);
+  ComputedGreensFunctions result;
+  GreensFunctionsInfo& info = result.info;
+  info = infoOf(model, options.columns);
+  info.fingerprint = shell.fingerprint(model);
+  info.rotationsHeld = shell.isClamped();
+  info.source = describeSource(model, shell);
+  info.reciprocal = options.reciprocal;
+
+  Stopwatch watch;
+  progress.report(0, "assemble");
+  shell::ShellSystem system(model, shell);
+  addSeconds(info.diagnostics, "assemble", watch.seconds());
+
+  const double length = system.length;
+  const Eigen::Index rows = 3 * model.mesh().vertexCount(), columns = 3 * info.columnNodes.size();
+  result.matrix = AlignedBuffer<double>(rows * columns);
+  Eigen::Map<Eigen::MatrixXd> matrix(result.matrix.data(), rows, columns);
+  const shell::ShellResponse response = shell::shellResponse(
+      std::move(system), model, info.columnNodes, matrix, progress.part(0.05, 0.95));
+  scaleToModel(info, length, matrix);
+  addSeconds(info.diagnostics, "solve", watch.seconds());
+  info.diagnostics.rotationDefect = response.rigidMotionDefect;
+  info.diagnostics.peakBytes = response.peakBytes + result.matrix.bytes();
+
+  info.diagnostics.reciprocityDefect =
+      makeReciprocal(result.matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
+                     options.reciprocal);
+  info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
+  info.diagnostics.warnings = shell::shellWarnings(model, shell, info.diagnostics.rotationDefect);
+  addSeconds(info.diagnostics, "check", watch.seconds());
+  progress.report(1, "done");
+  return result;
+}
+
+}  // namespace palpate

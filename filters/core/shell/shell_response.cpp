@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "shell/shell_response.h"
+
+#include <algorithm>
+#include <Eigen/Geometry>
+#include <utility>
+
+namespace palpate::shell {
+namespace {
+
+constexpr Eigen::Index kColumnsAtOnce = 96;
+
+class Response {
+ public:
+  Response(ShellSystem system, const ElasticModel& model)
+      : system_(std::move(system)),
+        model_(model),
+        factored_(std::move(system_.entries), 0, true),
+        freeCount_(static_cast<int>(system_.heldFree.cols())) {}
+
+  std::size_t peakBytes() const {
+    return factored_.peakBytes() + sizeof(double) * std::size_t(freeCount_) * kColumnsAtOnce;
+  }
+
+  /// Columns of three components each, from the first-th node on.
+  void solve(const std::vector<int>& nodes, Eigen::Index first, Eigen::Index count,
+             Eigen::Ref<Eigen::MatrixXd> out) const {
+    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(freeCount_, 3 * count),
+                    moved = Eigen::MatrixXd::Zero(system_.heldCount(), 3 * count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const int place = system_.place(k, nodes[first + i]);
+        if (place >= 0)
+          loads(place, 3 * i + k) = 1;
+        else if (model_.conditions().isFixed(nodes[first + i]))
+          moved(-1 - place, 3 * i + k) = 1;
+      }
+    loads.noalias() -= system_.heldFree.transpose() * moved;
+    factored_.solve(loads);
+    const Eigen::MatrixXd reactions = system_.heldFree * loads + system_.heldHeld * moved;
+    for (int v = 0; v < model_.mesh().vertexCount(); ++v)
+      for (int k = 0; k < 3; ++k) {
+        const int place = system_.place(k, v);
+        if (place >= 0)
+          out.row(3 * v + k) = loads.row(place);
+        else if (model_.conditions().isFixed(v))
+          out.row(3 * v + k) = reactions.row(-1 - place);
+        else
+          out.row(3 * v + k).setZero();
+      }
+  }
+
+  double rigidMotionDefect() const {
+    const Eigen::MatrixXd all = rigidMotions();
+    Eigen::MatrixXd held(system_.heldCount(), 6), free(freeCount_, 6);
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      const int place = system_.place(i % 6, i / 6);
+      if (place >= 0)
+        free.row(place) = all.row(i);
+      else
+        held.row(-1 - place) = all.row(i);
+    }
+    Eigen::MatrixXd found = -(system_.heldFree.transpose() * held);
+    factored_.solve(found);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < all.rows(); ++i)
+      if (const int place = system_.place(i % 6, i / 6); place >= 0 && i % 6 < 3)
+        largest = std::max(largest, (found.row(place) - free.row(place)).cwiseAbs().maxCoeff());
+    return largest;
+  }
+
+ private:
+  /// 6 #V by 6: three translations and three rotations about the middle of the mesh.
+  Eigen::MatrixXd rigidMotions() const {
+    const Eigen::Matrix3Xd& points = model_.mesh().points();
+    const Eigen::Vector3d middle = points.rowwise().mean();
+    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(6 * points.cols(), 6);
+    for (Eigen::Index v = 0; v < points.cols(); ++v)
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+        motions.block<3, 1>(6 * v, k) = axis;
+        motions.block<3, 1>(6 * v, 3 + k) = axis.cross((points.col(v) - middle) / system_.length);
+        motions.block<3, 1>(6 * v + 3, 3 + k) = axis;
+      }
+    return motions;
+  }
+
+  ShellSystem system_;
+  const ElasticModel& model_;
+  SparseFactorization factored_;
+  int freeCount_;
+};
+
+}  // namespace
+
+ShellResponse shellResponse(ShellSystem system, const ElasticModel& model,
+                            const std::vector<int>& nodes, Eigen::Ref<Eigen::MatrixXd> out,
+                            const Progress& progress) {
+  progress.report(0, "factor");
+  const Response response(std::move(system), model);
+  ShellResponse result;
+  result.peakBytes = response.peakBytes();
+  result.rigidMotionDefect = response.rigidMotionDefect();
+  const auto all = static_cast<Eigen::Index>(nodes.size());
+  for (Eigen::Index first = 0; first < all; first += kColumnsAtOnce / 3) {
+    progress.report(0.2 + 0.8 * double(first) / all, "solve");
+    const Eigen::Index count = std::min(kColumnsAtOnce / 3, all - first);
+    response.solve(nodes, first, count, out.middleCols(3 * first, 3 * count));
+  }
+  return result;
+}
+
+}  // namespace palpate::shell

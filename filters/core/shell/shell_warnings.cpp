@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "shell/shell_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "sentence.h"
+
+namespace palpate::shell {
+namespace {
+
+constexpr double kThickFrom = 0.2;      // of the piece's width, or the radius of curvature
+constexpr double kFold = 0.5236;        // 30 degrees
+constexpr double kRoundingFrom = 1e-3;  // of a rigid motion
+constexpr double kNarrowBelow = 1.5;    // edges
+
+/// Three digits of a number.
+std::string shortly(double x) {
+  std::ostringstream text;
+  text.precision(3);
+  text << x;
+  return text.str();
+}
+
+/// One piece of the surface.
+struct Piece {
+  double area = 0, thickest = 0, edges = 0;
+  int edgeCount = 0, firstVertex = -1;
+  Eigen::AlignedBox3d support;
+  /// A side of a square of the same area.
+  double width() const { return std::sqrt(area); }
+  double meanEdge() const { return edges / edgeCount; }
+};
+
+std::vector<Piece> piecesOf(const ElasticModel& model, const ThinShell& shell) {
+  const SurfaceMesh& mesh = model.mesh();
+  std::vector<Piece> pieces(mesh.bodyCount());
+  for (int v = 0; v < mesh.vertexCount(); ++v) {
+    Piece& piece = pieces[mesh.bodyOfVertex(v)];
+    if (piece.firstVertex < 0) piece.firstVertex = v;
+    if (shell.held().col(v).any()) piece.support.extend(mesh.points().col(v));
+  }
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    Piece& piece = pieces[mesh.bodyOfVertex(mesh.triangles()(0, f))];
+    piece.area += mesh.triangleAreas()[f];
+    piece.thickest = std::max(piece.thickest, shell.thickness().col(f).maxCoeff());
+    for (int k = 0; k < 3; ++k) {
+      piece.edges += (mesh.points().col(mesh.triangles()(k, f)) -
+                      mesh.points().col(mesh.triangles()((k + 1) % 3, f)))
+                         .norm();
+      ++piece.edgeCount;
+    }
+  }
+  return pieces;
+}
+
+void warnOfPieces(const ElasticModel& model, const ThinShell& shell,
+                  std::vector<std::string>& warnings) {
+  for (const Piece& piece : piecesOf(model, shell)) {
+    const std::string name = sentence("the piece of the shell with vertex ", piece.firstVertex);
+    const double ratio = piece.thickest / piece.width(), edge = piece.meanEdge();
+    if (ratio > kThickFrom)
+      warnings.push_back(sentence(name, " is thick (thickness over width ", shortly(ratio),
+                                  "): a shell's model has neither shear nor squeezing across it; "
+                                  "precompute it as a solid body"));
+    else if (piece.thickest > edge)
+      warnings.push_back(sentence(name,
+                                  " has edges shorter than its thickness (mean edge over "
+                                  "thickness ",
+                                  shortly(edge / piece.thickest),
+                                  "): contacts as small as these feel it bend, not sink in"));
+    const double support = piece.support.diagonal().norm() / edge;
+    if (shell.isClamped() && support < kNarrowBelow)
+      warnings.push_back(sentence(name, " is clamped over ", shortly(support),
+                                  " edges only: how far it turns there depends on the mesh; fix "
+                                  "more of it"));
+  }
+}
+
+void warnOfCurvature(const ElasticModel& model, const ThinShell& shell,
+                     std::vector<std::string>& warnings) {
+  const SurfaceMesh& mesh = model.mesh();
+  const Eigen::VectorXd curvatures = meanCurvatures(mesh);
+  double worst = 0;
+  int triangle = -1;
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    const double ratio = shell.thickness().col(f).mean() * curvatures[f];
+    if (ratio <= worst) continue;
+    worst = ratio;
+    triangle = f;
+  }
+  if (worst > kThickFrom)
+    warnings.push_back(sentence("the shell is thick beside its radius of curvature at triangle ",
+                                triangle, " (thickness times mean curvature ", shortly(worst),
+                                "): lines across it are no longer straight; precompute it as a "
+                                "solid body"));
+}
+
+}  // namespace
+
+Eigen::VectorXd meanCurvatures(const SurfaceMesh& mesh) {
+  std::map<std::pair<int, int>, int> firstOf;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(mesh.vertexCount());
+  std::vector<bool> isFolded(mesh.vertexCount(), false);
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] =
+          std::minmax({mesh.triangles()(k, f), mesh.triangles()((k + 1) % 3, f)});
+      const auto [entry, isNew] = firstOf.insert({{low, high}, f});
+      if (isNew) continue;
+      const int g = entry->second;
+      const Eigen::Vector3d n = mesh.triangleNormals().col(f), m = mesh.triangleNormals().col(g);
+      const Eigen::Vector3d edge = mesh.points().col(high) - mesh.points().col(low);
+      const Eigen::Vector3d apart =
+          mesh.points().col(mesh.triangles()((k + 2) % 3, f)) - mesh.points().col(low);
+      const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+      const double signedAngle = m.dot(apart) > 0 ? -angle : angle;
+      for (int v : {low, high}) {
+        sums[v] += signedAngle * edge.norm() / 4;
+        if (angle > kFold) isFolded[v] = true;
+      }
+    }
+  Eigen::VectorXd curvatures = Eigen::VectorXd::Zero(mesh.triangleCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    double sum = 0, area = 0;
+    for (int v : mesh.triangles().col(f)) {
+      sum += isFolded[v] ? std::numeric_limits<double>::quiet_NaN() : sums[v];
+      area += mesh.vertexAreas()[v];
+    }
+    if (std::isfinite(sum)) curvatures[f] = std::abs(sum) / area;
+  }
+  return curvatures;
+}
+
+std::vector<std::string> shellWarnings(const ElasticModel& model, const ThinShell& shell,
+                                       double rigidMotionDefect) {
+  std::vector<std::string> warnings;
+  warnOfPieces(model, shell, warnings);
+  warnOfCurvature(model, shell, warnings);
+  if (rigidMotionDefect > kRoundingFrom)
+    warnings.push_back(sentence("rounding shows: rigid motions err by ", shortly(rigidMotionDefect),
+                                "; the shell is very thin (",
+                                shortly(shell.thinnest() / model.mesh().diagonal()),
+                                " of its size) or has needles of triangles"));
+  return warnings;
+}
+
+}  // namespace palpate::shell
