@@ -37,8 +37,9 @@ void printSurface(vtkPolyData* surface) {
   }
   const Eigen::Matrix3Xd points = convert::pointsOf(surface);
   const Eigen::Matrix3Xi triangles = convert::trianglesOf(surface);
-  const bool isHalfSpace = convert::fieldString(surface, "GreensFunctionDomain") == "halfspace";
-  const Rims rims = isHalfSpace ? Rims::Allowed : Rims::Refused;
+  const std::string domain = convert::fieldString(surface, "GreensFunctionDomain");
+  const bool isSheet = domain == "halfspace" || domain == "shell";
+  const Rims rims = isSheet ? Rims::Allowed : Rims::Refused;
   const std::vector<MeshDefect> defects = findMeshDefects(points, triangles, 16, rims);
   if (!defects.empty()) {
     printDefects(defects);
@@ -46,8 +47,8 @@ void printSurface(vtkPolyData* surface) {
   }
   try {
     const SurfaceMesh mesh(points, triangles, rims);
-    printRow(isHalfSpace ? "pieces" : "bodies", std::to_string(mesh.bodyCount()));
-    if (!isHalfSpace) printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
+    printRow(isSheet ? "pieces" : "bodies", std::to_string(mesh.bodyCount()));
+    if (!isSheet) printRow("cavities", std::to_string(mesh.shellCount() - mesh.bodyCount()));
     printRow("area", number(mesh.triangleAreas().sum()));
     printRow("mean edge length", number(mesh.meanEdgeLength()));
     const std::vector<MeshDefect> crossings = findSelfIntersections(mesh);

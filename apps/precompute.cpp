@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
+#include <vtkShellGreensFunctions.h>
 #include <vtkSmartPointer.h>
 #include <vtkSolidBoundary.h>
 #include <vtkToleranceGreensFunctions.h>
@@ -40,6 +41,8 @@ struct Options {
   std::string subdivision = "flat";
   std::string element = "quadratic";
   double cellSize = 0;
+  double thickness = 0;  // 0 for that of the surface's array
+  bool hinged = false;
   bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
   int threads = 0;
@@ -90,8 +93,8 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
 void addOptions(CLI::App& command, Options& o) {
   command
       .add_option("input", o.input,
-                  "A triangle surface: closed, or flat for a half-space below it; for fem also a "
-                  "volume mesh of tetrahedra, .vtu or .vtk")
+                  "A triangle surface: closed; flat for a half-space below it; any for a shell, whose "
+                  "middle it is; for fem also a volume mesh of tetrahedra, .vtu or .vtk")
       ->required();
   requireWritable(
       command
@@ -101,8 +104,9 @@ void addOptions(CLI::App& command, Options& o) {
   command
       .add_option(
           "--method", o.method,
-          "bem; fem: tetrahedra inside the surface; or halfspace: all below a flat one, exact")
-      ->check(CLI::IsMember({"bem", "fem", "halfspace"}))
+          "bem; fem: tetrahedra inside the surface; halfspace: all below a flat one, exact; or shell: "
+          "a thin layer about it")
+      ->check(CLI::IsMember({"bem", "fem", "halfspace", "shell"}))
       ->capture_default_str();
   o.support.addTo(command);
   addAccuracyOptions(command, o);
@@ -131,6 +135,14 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(finite);
+  const char* const shells = "Plates and shells";
+  command
+      .add_option("--thickness", o.thickness,
+                  "Thickness, m; by default the surface's point or cell array Thickness")
+      ->check(CLI::PositiveNumber)
+      ->group(shells);
+  command.add_flag("--hinged", o.hinged, "Fixed vertices may turn: they are not clamped")
+      ->group(shells);
 }
 
 /// Options and the methods that have them.
@@ -148,7 +160,9 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--smooth-angle", "bem fem"},
                                    {"--patch-columns", "bem fem"},
                                    {"--element", "fem"},
-                                   {"--cell-size", "fem"}};
+                                   {"--cell-size", "fem"},
+                                   {"--thickness", "shell"},
+                                   {"--hinged", "shell"}};
 
 void refuseForeignOptions(const CLI::App& command, const Options& o) {
   for (const OptionOf& option : kOptionsOf)
@@ -183,6 +197,15 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> finiteElements(const Options& o) {
   return filter;
 }
 
+vtkSmartPointer<vtkGreensFunctionsAlgorithm> thinShell(const Options& o) {
+  auto filter = vtkSmartPointer<vtkShellGreensFunctions>::New();
+  filter->SetThickness(o.thickness);
+  filter->SetClamped(!o.hinged);
+  filter->SetReciprocal(!o.raw);
+  setColumns(filter, o);
+  return filter;
+}
+
 void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   filter->SetPrecision(o.precision == "mixed" ? 1 : o.precision == "float" ? 2 : 0);
   filter->SetSolver(o.solver == "iterative");
@@ -202,6 +225,7 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
 vtkSmartPointer<vtkGreensFunctionsAlgorithm> method(const Options& o) {
   if (o.method == "halfspace") return halfSpace(o);
   if (o.method == "fem") return finiteElements(o);
+  if (o.method == "shell") return thinShell(o);
   vtkSmartPointer<vtkBoundaryElementGreensFunctions> filter;
   if (o.tolerance > 0) {
     auto chooser = vtkSmartPointer<vtkToleranceGreensFunctions>::New();

@@ -17,6 +17,7 @@ from .arguments import (
     flag,
     listed,
     number,
+    numbers,
     progress_callback,
     surface_of,
     vertex_list,
@@ -29,11 +30,13 @@ from .PalpateElastostatics import (
     vtkFiniteElementGreensFunctions,
     vtkHalfSpaceGreensFunctions,
     vtkReferenceBoundaryConditions,
+    vtkShellGreensFunctions,
     vtkSolidBoundary,
     vtkToleranceGreensFunctions,
 )
 
 FIXED = "PrecomputeFixed"  # carries an argument to a filter
+THICKNESS = "Thickness"
 
 __all__ = ["precompute"]
 
@@ -43,15 +46,16 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
                estimate_error=True, max_levels=None, max_vertices=None, subdivision=None,
-               volume=None, element="quadratic", cell_size=0.0):
+               volume=None, element="quadratic", cell_size=0.0, thickness=None, clamped=True):
     """Compute the Green's functions of an elastic body from its surface.
 
     Parameters
     ----------
     surface : vtkPolyData or vtkUnstructuredGrid
         A closed triangle surface of n vertices, normals out of what it encloses (see `repair`); for a
-        half-space a flat one, normals out of it. For finite elements also the tetrahedra themselves,
-        whose boundary is then the surface: its n vertices are the grid's points on it, in their order.
+        half-space a flat one, normals out of it; for a shell its middle, open or closed, normals to the
+        side that it is touched from. For finite elements also the tetrahedra themselves, whose boundary
+        is then the surface: its n vertices are the grid's points on it, in their order.
         Lengths in metres, or in any one unit.
     young : float or None
         Young's modulus, Pa, > 0. None takes the surface's field data.
@@ -59,11 +63,12 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
     fixed : array_like of bool, optional
         n values, where the body is held. None takes the surface's point array `BoundaryType`.
-    method : {"bem", "fem", "halfspace"}
+    method : {"bem", "fem", "halfspace", "shell"}
         Boundary elements; finite elements in tetrahedra (`columns`, `reciprocal`, `smooth_angle`,
-        `patch_columns`, `progress`, `volume`, `element` and `cell_size` go with it); or the half-space below a flat
+        `patch_columns`, `progress`, `volume`, `element` and `cell_size` go with it); the half-space below a flat
         surface: no support, no matrix, each Green's function computed exactly when it is asked for
-        (`columns`, `reciprocal`, `progress` and `threads` go with it).
+        (`columns`, `reciprocal`, `progress` and `threads` go with it); or a plate or thin shell about the
+        surface (`columns`, `reciprocal`, `progress`, `thickness` and `clamped` go with it).
     precision : {"double", "mixed", "float"}
         Double; factored in float and refined to 1e-11 in double, which is faster where few columns are
         wanted and slower where all are; or all in float (half the memory and time, about 1e-5).
@@ -117,6 +122,12 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     cell_size : float
         Largest circumradius of the tetrahedra that the surface is filled with, m; 0 for as the surface's
         triangles ask for.
+    thickness : float or array_like of float, optional
+        Of a shell, m: one number or n, linear between vertices. None takes the surface's point or cell
+        array `Thickness`.
+    clamped : bool
+        Hold the rotations of a shell's fixed vertices, too; else they turn as on hinges. The point array
+        `HeldComponents` may hold single components (see `vtkShellGreensFunctions`).
 
     Returns
     -------
@@ -146,7 +157,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     >>> float(palpate.array(model, "ErrorEstimate")[0]) < 0.2
     True
     """
-    choice(method, {"bem": 0, "fem": 1, "halfspace": 2}, "method")
+    choice(method, {"bem": 0, "fem": 1, "halfspace": 2, "shell": 3}, "method")
     if isinstance(surface, vtkUnstructuredGrid):
         if method != "fem" or volume is not None:
             raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
@@ -156,12 +167,16 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
         integration_tolerance=integration_tolerance, support_patch=support_patch,
         estimate_error=estimate_error, max_levels=max_levels, max_vertices=max_vertices,
-        subdivision=subdivision, volume=volume, element=element, cell_size=cell_size)
+        subdivision=subdivision, volume=volume, element=element, cell_size=cell_size,
+        thickness=thickness, clamped=clamped)
     refuse_foreign(method, settings)
     if method == "bem":
         greens = boundary_elements(columns, **settings)
     elif method == "fem":
         greens = finite_elements(**settings)
+    elif method == "shell":
+        greens = vtkShellGreensFunctions()
+        greens.SetClamped(flag(clamped, "clamped"))
     else:
         greens = vtkHalfSpaceGreensFunctions()
     conditions = vtkReferenceBoundaryConditions()
@@ -176,6 +191,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                         f"{'x'.join(map(str, fixed.shape))}")
         conditioned.GetPointData().AddArray(as_vtk(fixed.astype(bool), FIXED, 1, np.uint8))
         conditions.SetFixedArrayName(FIXED)
+    if thickness is not None:
+        set_thickness(greens, conditioned, thickness)
     conditions.SetInputData(conditioned)
     if young is not None:
         conditions.SetYoungsModulus(number(young, "Young's modulus"))
@@ -207,6 +224,7 @@ def boundary_of(grid):
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
     "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
+    "thickness": ("shell",), "clamped": ("shell",),
 }
 
 
@@ -215,8 +233,24 @@ def refuse_foreign(method, settings):
     defaults = inspect.signature(precompute).parameters
     for name, value in settings.items():
         default = defaults[name].default
-        if method not in METHODS_OF.get(name, ("bem",)) and value is not default and value != default:
+        is_set = value is not default and (isinstance(value, np.ndarray) or value != default)
+        if is_set and method not in METHODS_OF.get(name, ("bem",)):
             raise Error(f"{name} makes no sense for method={method!r}: leave it out")
+
+
+def set_thickness(greens, surface, thickness):
+    """Give the filter one thickness, or its surface one a vertex."""
+    values = numbers(thickness, "thickness")
+    if values.ndim == 0:
+        if not values > 0:
+            raise Error(f"thickness must be a positive number, not {thickness}")
+        greens.SetThickness(float(values))
+        return
+    if values.shape != (surface.GetNumberOfPoints(),):
+        raise Error(f"thickness must be one number or {surface.GetNumberOfPoints()}, one a vertex, not "
+                    f"{'x'.join(map(str, values.shape))}")
+    surface.GetPointData().AddArray(as_vtk(values, THICKNESS, 1, float))
+    surface.GetCellData().RemoveArray(THICKNESS)
 
 
 def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, **_):

@@ -27,29 +27,29 @@ class Response {
   /// Columns of three components each, from the first-th node on.
   void solve(const std::vector<int>& nodes, Eigen::Index first, Eigen::Index count,
              Eigen::Ref<Eigen::MatrixXd> out) const {
-    Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(freeCount_, 3 * count),
-                    moved = Eigen::MatrixXd::Zero(system_.heldCount(), 3 * count);
+    Eigen::MatrixXd free = Eigen::MatrixXd::Zero(freeCount_, 3 * count),
+                    held = Eigen::MatrixXd::Zero(system_.heldCount(), 3 * count);
     for (Eigen::Index i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
         const int place = system_.place(k, nodes[first + i]);
         if (place >= 0)
-          loads(place, 3 * i + k) = 1;
+          free(place, 3 * i + k) = 1;
         else if (model_.conditions().isFixed(nodes[first + i]))
-          moved(-1 - place, 3 * i + k) = 1;
+          held(-1 - place, 3 * i + k) = 1;
       }
-    loads.noalias() -= system_.heldFree.transpose() * moved;
-    factored_.solve(loads);
-    const Eigen::MatrixXd reactions = system_.heldFree * loads + system_.heldHeld * moved;
-    for (int v = 0; v < model_.mesh().vertexCount(); ++v)
-      for (int k = 0; k < 3; ++k) {
-        const int place = system_.place(k, v);
-        if (place >= 0)
-          out.row(3 * v + k) = loads.row(place);
-        else if (model_.conditions().isFixed(v))
-          out.row(3 * v + k) = reactions.row(-1 - place);
-        else
-          out.row(3 * v + k).setZero();
-      }
+    const bool moves = !held.isZero(0);
+    if (moves) free.noalias() -= system_.heldFree.transpose() * held;
+    factored_.solve(free);
+    Eigen::MatrixXd reactions = system_.heldFree * free;
+    if (moves) reactions += system_.heldHeld * held;
+    for (Eigen::Index c = 0; c < out.cols(); ++c)
+      for (int v = 0; v < model_.mesh().vertexCount(); ++v)
+        for (int k = 0; k < 3; ++k) {
+          const int place = system_.place(k, v);
+          out(3 * v + k, c) = place >= 0                       ? free(place, c)
+                              : model_.conditions().isFixed(v) ? reactions(-1 - place, c)
+                                                               : 0;
+        }
   }
 
   double rigidMotionDefect() const {

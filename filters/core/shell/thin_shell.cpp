@@ -78,6 +78,12 @@ HeldComponents heldComponents(const BoundaryConditions& conditions, bool clamped
   return held;
 }
 
+bool areRotationsHeld(const BoundaryConditions& conditions, const HeldComponents& held) {
+  for (int v : conditions.fixedNodes())
+    if (!held.col(v).tail<3>().all()) return false;
+  return true;
+}
+
 Eigen::Matrix3Xd thicknessOfVertices(const SurfaceMesh& mesh, const Eigen::VectorXd& thickness) {
   requireThickness(mesh, thickness, mesh.vertexCount(), "vertex");
   Eigen::Matrix3Xd atCorners(3, mesh.triangleCount());
@@ -92,7 +98,7 @@ Eigen::Matrix3Xd thicknessOfTriangles(const SurfaceMesh& mesh, const Eigen::Vect
 }
 
 ThinShell::ThinShell(const ElasticModel& model, Eigen::Matrix3Xd thickness, HeldComponents held)
-    : thickness_(std::move(thickness)), held_(std::move(held)), isClamped_(true) {
+    : thickness_(std::move(thickness)), held_(std::move(held)), isClamped_(false) {
   const SurfaceMesh& mesh = model.mesh();
   if (model.domain() != Domain::Shell) refuse("the model's surface is not the middle of a shell");
   if (thickness_.cols() != mesh.triangleCount())
@@ -107,8 +113,8 @@ ThinShell::ThinShell(const ElasticModel& model, Eigen::Matrix3Xd thickness, Held
       refuse("vertex ", v, " is ",
              isFixed ? "fixed, but its displacement is not held"
                      : "free, but its whole displacement is held: fix it");
-    if (isFixed && !held_.col(v).all()) isClamped_ = false;
   }
+  isClamped_ = areRotationsHeld(model.conditions(), held_);
   requireHeld(mesh, held_);
 }
 

@@ -17,6 +17,9 @@ using HeldComponents = Eigen::Array<bool, 6, Eigen::Dynamic>;
 /// Fixed vertices hold their displacements, clamped ones their rotations, too.
 HeldComponents heldComponents(const BoundaryConditions& conditions, bool clamped);
 
+/// Whether all rotations of all fixed vertices are held.
+bool areRotationsHeld(const BoundaryConditions& conditions, const HeldComponents& held);
+
 /// The thickness at the corners of each triangle, 3 by #F, from one a vertex, between which it is
 /// linear, or one a triangle.
 /// @param thickness  #V or #F, in the unit of length.
@@ -41,7 +44,7 @@ class ThinShell {
 
   const Eigen::Matrix3Xd& thickness() const { return thickness_; }
   const HeldComponents& held() const { return held_; }
-  /// Whether all rotations of all fixed vertices are held.
+  /// areRotationsHeld.
   bool isClamped() const { return isClamped_; }
   double thinnest() const { return thickness_.minCoeff(); }
   double thickest() const { return thickness_.maxCoeff(); }

@@ -47,6 +47,12 @@ constexpr const char* Stress = "Stress";                 // 6, the same, Pa
 constexpr const char* VonMisesStress = "VonMisesStress"; // Pa
 constexpr const char* PrincipalStress = "PrincipalStress"; // 3, the largest first, Pa
 
+// Point data of shells.
+constexpr const char* Thickness = "Thickness"; // m; cell data, too, and then one a triangle
+/// uint8, 6: displacement along x, y, z and rotation about them held, besides what fixed vertices hold;
+/// where all of the displacement is, the vertex is fixed and its rotation held as here; optional.
+constexpr const char* HeldComponents = "HeldComponents";
+
 // Cell data.
 constexpr const char* SmoothPatch = "SmoothPatch"; // int, traction may jump between patches
 
@@ -77,7 +83,8 @@ constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
 constexpr const char* HomogeneousMaterial = "HomogeneousMaterial"; // 0, or absent
-constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // interior, exterior, halfspace
+constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // interior, exterior, halfspace, shell
+constexpr const char* Clamped = "Clamped"; // of shells: 1 fixed vertices do not turn, 0 they do
 constexpr const char* GreensFunctionsReciprocal = "GreensFunctionsReciprocal"; // uint8
 constexpr const char* MeshFingerprint = "MeshFingerprint";                     // uint64
 
@@ -136,7 +143,7 @@ constexpr const char* Zone = "Zone";           // int, optional: whose force it 
 /// Field data of one computation of Green's functions.
 constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
   PatchGreensFunctions, PatchGreensFunctionNodes, GreensFunctionYoungsModulus, GreensFunctionSource,
-  HomogeneousMaterial, GreensFunctionDomain, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
+  HomogeneousMaterial, GreensFunctionDomain, Clamped, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,

@@ -9,6 +9,7 @@
 #include "halfspace/half_space_greens_functions.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/smooth_patches.h"
+#include "shell_arrays.h"
 #include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
@@ -23,7 +24,9 @@
 #include "vtkTypeUInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 namespace palpate::convert
@@ -231,23 +234,19 @@ void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
   {
     throw std::invalid_argument(
       "the Green's functions are stale: points, triangles, boundary types, smooth patches or "
-      "Poisson's ratio have changed since they were computed; compute them again");
+      "Poisson's ratio (of a shell its thickness and what is held, too) have changed since they were "
+      "computed; compute them again");
   }
 }
 
-constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace" };
+constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell" };
 
 Domain domainOf(vtkPolyData* surface)
 {
-  const std::string name = fieldString(surface, arrays::GreensFunctionDomain);
-  for (Domain domain : { Domain::Exterior, Domain::HalfSpace })
-  {
-    if (name == DomainNames[static_cast<int>(domain)])
-    {
-      return domain;
-    }
-  }
-  return Domain::Interior;
+  const auto name = std::find(std::begin(DomainNames), std::end(DomainNames),
+    fieldString(surface, arrays::GreensFunctionDomain));
+  return name == std::end(DomainNames) ? Domain::Interior
+                                       : static_cast<Domain>(name - std::begin(DomainNames));
 }
 
 /// The Green's functions of the columns, from the matrices that the surface carries.
@@ -276,8 +275,7 @@ std::shared_ptr<const GreensFunctions> storedGreensFunctions(
 
 SurfaceMesh meshOf(vtkPolyData* surface)
 {
-  return SurfaceMesh(pointsOf(surface), trianglesOf(surface),
-    domainOf(surface) == Domain::HalfSpace ? Rims::Allowed : Rims::Refused);
+  return SurfaceMesh(pointsOf(surface), trianglesOf(surface), rimsOf(domainOf(surface)));
 }
 
 std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface, Rims rims)
@@ -289,13 +287,14 @@ std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface, Rims rims)
 
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
 {
-  const auto mesh =
-    soundMeshOf(surface, domain == Domain::HalfSpace ? Rims::Allowed : Rims::Refused);
-  Eigen::VectorXi patches =
-    hasGivenPatches(surface, *mesh) ? storedPatches(surface) : findSmoothPatches(*mesh, smoothAngle);
-  const bool needsSupport = domain == Domain::Interior;
+  const auto mesh = soundMeshOf(surface, rimsOf(domain));
+  const bool isShell = domain == Domain::Shell, isGiven = !isShell && hasGivenPatches(surface, *mesh);
+  Eigen::VectorXi patches = isGiven ? storedPatches(surface)
+                                    : findSmoothPatches(*mesh, isShell ? OnePatchAngle : smoothAngle);
   return ElasticModel(mesh, materialOf(surface),
-    BoundaryConditions(boundaryTypesOf(surface, !needsSupport)), std::move(patches), domain);
+    isShell ? shellConditionsOf(surface)
+            : BoundaryConditions(boundaryTypesOf(surface, domain != Domain::Interior)),
+    std::move(patches), domain);
 }
 
 void setGreensFunctions(
@@ -381,6 +380,10 @@ ServedModel servedModelOf(vtkPolyData* surface)
     material.poissonRatio());
   info.fingerprint = modelFingerprint(*served.mesh, info.conditions, served.smoothPatches,
     material.poissonRatio(), info.domain);
+  if (info.domain == Domain::Shell)
+  {
+    readShellArrays(surface, *served.mesh, info);
+  }
   requireFingerprint(surface, info.fingerprint);
   info.vertexAreas = served.mesh->vertexAreas();
   info.reciprocal =
