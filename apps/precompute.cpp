@@ -18,6 +18,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -102,10 +103,10 @@ void addOptions(CLI::App& command, Options& o) {
           ->required(),
       "models", ".vtp");
   command
-      .add_option(
-          "--method", o.method,
-          "bem; fem: tetrahedra inside the surface; halfspace: all below a flat one, exact; or shell: "
-          "a thin layer about it")
+      .add_option("--method", o.method,
+                  "bem; fem: tetrahedra inside the surface; halfspace: all below a flat one, "
+                  "exact; or shell: "
+                  "a thin layer about it")
       ->check(CLI::IsMember({"bem", "fem", "halfspace", "shell"}))
       ->capture_default_str();
   o.support.addTo(command);
@@ -139,7 +140,13 @@ void addOptions(CLI::App& command, Options& o) {
   command
       .add_option("--thickness", o.thickness,
                   "Thickness, m; by default the surface's point or cell array Thickness")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return std::strtod(text.c_str(), nullptr) > 0
+                       ? ""
+                       : "must be a positive number, not " + text;
+          },
+          ""))
       ->group(shells);
   command.add_flag("--hinged", o.hinged, "Fixed vertices may turn: they are not clamped")
       ->group(shells);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <Eigen/Geometry>
 
+#include "support/solids.h"
 #include "support/thin_shells.h"
 
 namespace palpate::test {
@@ -242,6 +243,35 @@ TEST(ShellReferences, ABallUnderPressureGrowsByItsClosedForm) {
     EXPECT_LT(std::abs(fine), 0.01) << "nu " << nu;
     EXPECT_LT(std::abs(fine), 0.25 * std::abs(coarse)) << "nu " << nu;
   }
+}
+
+TEST(ShellReferences, AThinSolidBendsAsItsShell) {
+  // A square plate clamped all round under a pressure, t / L = 0.05: one layer of quadratic
+  // tetrahedra as wide as it is thick, beside the shell. Shear, which a shell has none of, makes
+  // the solid softer by a few (t / L)^2 times ten, 4 %; one layer makes it stiffer by as much.
+  const double thickness = 0.05;
+  const int n = 20;
+  const SolidProblem solid = solidProblem(
+      kuhnBox({1, 1, thickness}, {n, n, 1}).mesh(),
+      [](const Eigen::Vector3d& x) { return (x.head<2>().array() - 0.5).abs().maxCoeff() > 0.499; },
+      1, 0.3);
+  FiniteElementOptions options;
+  options.patchColumns = true;
+  const auto greens = solid.greens(options);
+  const SurfaceMesh& mesh = solid.model.mesh();
+  Eigen::Matrix3Xd tractions = Eigen::Matrix3Xd::Zero(3, mesh.triangleCount()), applied;
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    if (mesh.triangleNormals()(2, f) > 0.5) tractions(2, f) = 1;
+  const Eigen::Matrix3Xd moved =
+      solveFaceTractions(*greens, mesh, solid.model.smoothPatches(), tractions, applied);
+  const ShellProblem shell = shellProblem(
+      plate(1, n),
+      [](const Eigen::Vector3d& x) { return x.head<2>().cwiseAbs().maxCoeff() > 0.499; },
+      {thickness});
+  const Eigen::Matrix3Xd bent = displacementUnder(shell, spreadEvenly(shell.mesh(), {0, 0, 1}));
+  EXPECT_NEAR(moved(2, vertexNear(mesh, {0.5, 0.5, thickness})) /
+                  bent(2, vertexNear(shell.mesh(), {0, 0, 0})),
+              1, 0.03);
 }
 
 }  // namespace

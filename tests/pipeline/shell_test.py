@@ -287,7 +287,8 @@ class Program(unittest.TestCase):
     def test_refuses_in_a_sentence(self):
         for options, sentence in (
                 ((), "the shell has no thickness"),
-                (("--thickness", 0), "--thickness"),
+                (("--thickness", 0), "--thickness: must be a positive number, not 0"),
+                (("--thickness", "nan"), "--thickness: must be a positive number, not nan"),
                 (("--thickness", THICKNESS, "--hinged"), "leaves a rigid motion free"),
                 (("--thickness", THICKNESS, "--precision", "float"),
                  "--precision makes no sense with --method shell"),
