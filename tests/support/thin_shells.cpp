@@ -80,6 +80,13 @@ Eigen::Matrix3Xd displacementUnder(const ShellProblem& problem, const Eigen::Mat
   return answer;
 }
 
+double displacementAt(const ShellProblem& problem, int vertex, int component,
+                      const Eigen::Matrix3Xd& forces) {
+  Eigen::Matrix3Xd there = Eigen::Matrix3Xd::Zero(3, forces.cols());
+  there(component, vertex) = 1;
+  return displacementUnder(problem, there).cwiseProduct(forces).sum();
+}
+
 Eigen::Matrix3Xd spreadEvenly(const SurfaceMesh& mesh, const Eigen::Vector3d& traction) {
   return traction * mesh.vertexAreas().transpose();
 }

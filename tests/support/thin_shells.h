@@ -54,6 +54,11 @@ Shape sheetOf(int alongX, int alongY, const std::function<Eigen::Vector3d(double
 /// Displacements, 3 by #V, under these forces (not tractions) at vertices, 3 by #V.
 Eigen::Matrix3Xd displacementUnder(const ShellProblem& problem, const Eigen::Matrix3Xd& forces);
 
+/// A component of one free vertex's displacement under them, by Betti's theorem from what a force
+/// there does, so that one column is enough.
+double displacementAt(const ShellProblem& problem, int vertex, int component,
+                      const Eigen::Matrix3Xd& forces);
+
 /// The forces of a traction, the same all over the surface.
 Eigen::Matrix3Xd spreadEvenly(const SurfaceMesh& mesh, const Eigen::Vector3d& traction);
 

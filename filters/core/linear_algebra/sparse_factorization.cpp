@@ -63,12 +63,10 @@ enum Answer {
 
 [[noreturn]] void fail(int error, int detail) {
   if (error == -13 || error == -7) throw std::bad_alloc();
-  std::ostringstream text;
   if (error == -10 || error == -6)
-    text << "the sparse system is singular: a part of the body is not held";
-  else
-    text << "the sparse system could not be factored (MUMPS error " << error << ", " << detail
-         << ")";
+    throw SingularSystem("the sparse system is singular: a part of the body is not held");
+  std::ostringstream text;
+  text << "the sparse system could not be factored (MUMPS error " << error << ", " << detail << ")";
   throw std::runtime_error(text.str());
 }
 
@@ -169,9 +167,9 @@ SparseFactorization::SparseFactorization(SymmetricEntries matrix, int kept, bool
   // The library writes the lower triangle row by row: the upper one column by column.
   if (kept > 0) schur_.triangularView<Eigen::StrictlyLower>() = schur_.transpose();
   if (definite && own.answer(NegativePivots) > 0)
-    throw std::runtime_error("the stiffness matrix of the body is not positive definite");
+    throw SingularSystem("the stiffness matrix of the body is not positive definite");
   if (own.answer(NullPivots) > 0 || !schur_.allFinite())
-    throw std::runtime_error("the sparse system is singular: a part of the body is not held");
+    throw SingularSystem("the sparse system is singular: a part of the body is not held");
 }
 
 SparseFactorization::~SparseFactorization() = default;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <Eigen/Core>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace palpate {
@@ -24,6 +25,11 @@ struct SymmetricEntries {
   }
 };
 
+/// A matrix is singular, or not definite where it should be, as far as rounding lets one see.
+struct SingularSystem : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Multifrontal factorisation of a sparse symmetric matrix
 ///     [ A  B^T ]
 ///     [ B  D   ]
@@ -35,9 +41,8 @@ class SparseFactorization {
   /// @param matrix    taken over.
   /// @param kept      how many of the last rows are kept, 0 for none.
   /// @param definite  A is positive definite; else it may be indefinite and is pivoted.
-  /// @throws std::runtime_error if A is singular (of definite ones beside kept rows the library
-  ///         does not tell), or not definite where it should be, or if the library is missing;
-  ///         std::bad_alloc.
+  /// @throws SingularSystem (of definite ones beside kept rows the library does not tell);
+  ///         std::runtime_error if the library is missing; std::bad_alloc.
   SparseFactorization(SymmetricEntries matrix, int kept, bool definite);
   ~SparseFactorization();
 

@@ -4,6 +4,7 @@
 #include "shell/shell_greens_functions.h"
 
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "greens/reciprocity.h"
@@ -14,6 +15,23 @@
 
 namespace palpate {
 namespace {
+
+constexpr double kLargestDefect = 0.05;  // of a rigid motion: beyond, little else can be right
+
+/// shellResponse, if rounding lets it be one.
+shell::ShellResponse soundResponse(shell::ShellSystem system, const ElasticModel& model,
+                                   const ThinShell& shell, const std::vector<int>& nodes,
+                                   Eigen::Ref<Eigen::MatrixXd> out, const Progress& progress) {
+  double defect = -1;
+  try {
+    const auto response = shell::shellResponse(std::move(system), model, nodes, out, progress);
+    if (response.rigidMotionDefect < kLargestDefect) return response;
+    defect = response.rigidMotionDefect;
+  } catch (const SingularSystem&) {
+    // Its support has been found to hold it.
+  }
+  throw std::runtime_error(shell::roundingSentence(model, shell, defect));
+}
 
 /// From the units of the system to those of the model: per pascal or metre, as metres or pascals.
 void scaleToModel(const GreensFunctionsInfo& info, double length, Eigen::Ref<Eigen::MatrixXd> all) {
@@ -64,8 +82,8 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
   const Eigen::Index rows = 3 * model.mesh().vertexCount(), columns = 3 * info.columnNodes.size();
   result.matrix = AlignedBuffer<double>(rows * columns);
   Eigen::Map<Eigen::MatrixXd> matrix(result.matrix.data(), rows, columns);
-  const shell::ShellResponse response = shell::shellResponse(
-      std::move(system), model, info.columnNodes, matrix, progress.part(0.05, 0.95));
+  const shell::ShellResponse response = soundResponse(
+      std::move(system), model, shell, info.columnNodes, matrix, progress.part(0.05, 0.95));
   scaleToModel(info, length, matrix);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;

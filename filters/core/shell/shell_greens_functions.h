@@ -31,7 +31,8 @@ struct ShellOptions {
 /// side of its normals; it bends and stretches, and is not squeezed through its thickness.
 /// @param model  of Domain::Shell; its smooth patches play no part.
 /// @throws std::invalid_argument for columns out of range; Aborted; std::bad_alloc;
-///         std::runtime_error if the system is singular or the library was built without MUMPS.
+///         std::runtime_error if the system is singular, if rounding leaves rigid motions wrong by
+///         a twentieth, or if the library was built without MUMPS.
 ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
                                                     const ThinShell& shell,
                                                     const ShellOptions& options = {},

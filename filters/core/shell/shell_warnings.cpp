@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kThickFrom = 0.2;      // of the piece's width, or the radius of curvature
 constexpr double kFold = 0.5236;        // 30 degrees
-constexpr double kRoundingFrom = 1e-3;  // of a rigid motion
+constexpr double kRoundingFrom = 1e-4;  // of a rigid motion
 constexpr double kNarrowBelow = 1.5;    // edges
 
 /// Three digits of a number.
@@ -139,16 +139,23 @@ Eigen::VectorXd meanCurvatures(const SurfaceMesh& mesh) {
   return curvatures;
 }
 
+std::string roundingSentence(const ElasticModel& model, const ThinShell& shell,
+                             double rigidMotionDefect) {
+  return sentence("rounding shows: ",
+                  rigidMotionDefect < 0
+                      ? "the stiffness matrix is singular"
+                      : "rigid motions err by " + shortly(rigidMotionDefect) + " of themselves",
+                  "; the shell is very thin (", shortly(shell.thinnest() / model.mesh().diagonal()),
+                  " of its size) or has needles of triangles");
+}
+
 std::vector<std::string> shellWarnings(const ElasticModel& model, const ThinShell& shell,
                                        double rigidMotionDefect) {
   std::vector<std::string> warnings;
   warnOfPieces(model, shell, warnings);
   warnOfCurvature(model, shell, warnings);
   if (rigidMotionDefect > kRoundingFrom)
-    warnings.push_back(sentence("rounding shows: rigid motions err by ", shortly(rigidMotionDefect),
-                                "; the shell is very thin (",
-                                shortly(shell.thinnest() / model.mesh().diagonal()),
-                                " of its size) or has needles of triangles"));
+    warnings.push_back(roundingSentence(model, shell, rigidMotionDefect));
   return warnings;
 }
 
