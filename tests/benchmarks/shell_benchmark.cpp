@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What all Green's functions of a curved shell cost, beside the factorisation and the solutions
-// that they cannot do without, by MUMPS alone and by Eigen's own sparse Cholesky factors.
+// What all Green's functions of a curved shell cost, beside a factorisation and solutions for as
+// many dense columns by MUMPS alone, and by Eigen's own sparse Cholesky factors.
 
 #include <benchmark/benchmark.h>
 

@@ -105,6 +105,18 @@ TEST_P(SparseFactorizationOf, RandomMatricesGivesTheDenseSchurComplementOrSoluti
       Eigen::MatrixXd again = given.topRows(rest);
       factored.solve(again);
       EXPECT_EQ(again, held.topRows(rest));
+      const std::vector<int> ones{rest - 1, -1, 0, rest / 2, rest / 2};
+      Eigen::MatrixXd units = Eigen::MatrixXd::Random(rest, 5), wanted(rest, 5);
+      for (int k = 0; k < 5; ++k)
+        wanted.col(k) = ones[k] < 0 ? Eigen::VectorXd::Zero(rest).eval()
+                                    : a.solve(Eigen::VectorXd::Unit(rest, ones[k])).eval();
+      factored.solveUnits(ones, units);
+      EXPECT_LT((units - wanted).norm(), kRounding * wanted.norm());
+      factored.solveUnits({-1, -1}, units.leftCols(2));
+      EXPECT_TRUE(units.leftCols(2).isZero(0));
+      again = given.topRows(rest);
+      factored.solve(again);
+      EXPECT_EQ(again, held.topRows(rest));
     }
     EXPECT_EQ(factored.negativePivots(), c.pressures);
     EXPECT_GT(factored.peakBytes(), entries.value.size() * sizeof(double));

@@ -118,6 +118,8 @@ TEST(ThinShell, HeldComponentsThatContradictBoundaryTypesAreRefused) {
   held.col(4).head<3>() = true;
   EXPECT_EQ(refusal([&] { ThinShell(model, thickness, held); }),
             "vertex 4 is free, but its whole displacement is held: fix it");
+  EXPECT_EQ(refusal([&] { ThinShell(model, 0 * thickness, true); }),
+            "the thickness at triangle 0 must be a positive number, not 0");
   EXPECT_TRUE(isRefused([&] { ThinShell(model, thickness.leftCols(7), true); },
                         "thicknesses of 7 triangles, the surface has 8"));
   EXPECT_TRUE(isRefused([&] { ThinShell(model, thickness, HeldComponents(6, 8)); },

@@ -50,8 +50,10 @@ enum Control {
   Compression = 12,
   ExtraMemoryPercent = 14,
   Schur = 19,
+  RightHandSides = 20,
   FindNullPivots = 24
 };
+enum RightHandSide { Dense = 0, OfFewEntries = 3 };
 enum Orderings { GivenOrder = 1, Scotch = 3 };
 enum Answer {
   Error = 1,
@@ -180,6 +182,32 @@ void SparseFactorization::solve(Eigen::Ref<Eigen::MatrixXd> columns) const {
   own.id.nrhs = static_cast<int>(columns.cols());
   own.id.lrhs = static_cast<int>(columns.outerStride());
   own.run(Solve);
+}
+
+void SparseFactorization::solveUnits(const std::vector<int>& rows,
+                                     Eigen::Ref<Eigen::MatrixXd> out) const {
+  Instance& own = *instance_;
+  std::vector<int> places, starts;
+  for (int row : rows) {
+    starts.push_back(static_cast<int>(places.size()) + 1);
+    if (row >= 0) places.push_back(row + 1);
+  }
+  starts.push_back(static_cast<int>(places.size()) + 1);
+  out.setZero();
+  if (places.empty()) return;
+  std::vector<double> ones(places.size(), 1);
+  own.id.nz_rhs = static_cast<int>(places.size());
+  own.id.rhs_sparse = ones.data();
+  own.id.irhs_sparse = places.data();
+  own.id.irhs_ptr = starts.data();
+  own.control(RightHandSides, OfFewEntries);
+  own.id.rhs = out.data();
+  own.id.nrhs = static_cast<int>(out.cols());
+  own.id.lrhs = static_cast<int>(out.outerStride());
+  own.id.job = Solve;
+  own.call(&own.id);
+  own.control(RightHandSides, Dense);
+  if (own.answer(Error) < 0) fail(own.answer(Error), own.answer(ErrorDetail));
 }
 
 int SparseFactorization::negativePivots() const {

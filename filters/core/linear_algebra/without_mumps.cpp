@@ -17,6 +17,7 @@ SparseFactorization::SparseFactorization(SymmetricEntries, int, bool) {
 }
 SparseFactorization::~SparseFactorization() = default;
 void SparseFactorization::solve(Eigen::Ref<Eigen::MatrixXd>) const {}
+void SparseFactorization::solveUnits(const std::vector<int>&, Eigen::Ref<Eigen::MatrixXd>) const {}
 int SparseFactorization::negativePivots() const {
   return 0;
 }

@@ -27,21 +27,24 @@ class Response {
   /// Columns of three components each, from the first-th node on.
   void solve(const std::vector<int>& nodes, Eigen::Index first, Eigen::Index count,
              Eigen::Ref<Eigen::MatrixXd> out) const {
-    Eigen::MatrixXd free = Eigen::MatrixXd::Zero(freeCount_, 3 * count),
-                    held = Eigen::MatrixXd::Zero(system_.heldCount(), 3 * count);
+    std::vector<int> forces;  // places of the unit ones, -1 for none
+    Eigen::MatrixXd held = Eigen::MatrixXd::Zero(system_.heldCount(), 3 * count);
     for (Eigen::Index i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
         const int place = system_.place(k, nodes[first + i]);
-        if (place >= 0)
-          free(place, 3 * i + k) = 1;
-        else if (model_.conditions().isFixed(nodes[first + i]))
+        forces.push_back(std::max(place, -1));
+        if (place < 0 && model_.conditions().isFixed(nodes[first + i]))
           held(-1 - place, 3 * i + k) = 1;
       }
-    const bool moves = !held.isZero(0);
-    if (moves) free.noalias() -= system_.heldFree.transpose() * held;
-    factored_.solve(free);
+    Eigen::MatrixXd free(freeCount_, 3 * count);
+    factored_.solveUnits(forces, free);
+    if (!held.isZero(0)) {
+      Eigen::MatrixXd moved = -(system_.heldFree.transpose() * held);
+      factored_.solve(moved);
+      free += moved;
+    }
     Eigen::MatrixXd reactions = system_.heldFree * free;
-    if (moves) reactions += system_.heldHeld * held;
+    if (!held.isZero(0)) reactions += system_.heldHeld * held;
     for (Eigen::Index c = 0; c < out.cols(); ++c)
       for (int v = 0; v < model_.mesh().vertexCount(); ++v)
         for (int k = 0; k < 3; ++k) {

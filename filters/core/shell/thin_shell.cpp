@@ -104,6 +104,10 @@ ThinShell::ThinShell(const ElasticModel& model, Eigen::Matrix3Xd thickness, Held
   if (thickness_.cols() != mesh.triangleCount())
     refuse("there are thicknesses of ", thickness_.cols(), " triangles, the surface has ",
            mesh.triangleCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    if (!(thickness_.col(f).minCoeff() > 0) || !thickness_.col(f).allFinite())
+      refuse("the thickness at triangle ", f, " must be a positive number, not ",
+             thickness_.col(f).minCoeff());
   if (held_.cols() != mesh.vertexCount())
     refuse("there are held components of ", held_.cols(), " vertices, the surface has ",
            mesh.vertexCount());

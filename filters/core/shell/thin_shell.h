@@ -35,9 +35,9 @@ class ThinShell {
  public:
   /// @param model      of Domain::Shell.
   /// @param thickness  3 by #F.
-  /// @throws std::invalid_argument for another domain, sizes that differ, a fixed vertex whose
-  ///         displacement is not held, a free one whose displacement is, or a piece of the surface
-  ///         that a rigid motion is left to.
+  /// @throws std::invalid_argument for another domain, sizes that differ, a thickness that is not
+  ///         above zero, a fixed vertex whose displacement is not held, a free one whose
+  ///         displacement is, or a piece of the surface that a rigid motion is left to.
   ThinShell(const ElasticModel& model, Eigen::Matrix3Xd thickness, HeldComponents held);
   /// Held at its fixed vertices.
   ThinShell(const ElasticModel& model, Eigen::Matrix3Xd thickness, bool clamped);
