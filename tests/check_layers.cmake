@@ -32,31 +32,30 @@ set(include "^[ \t]*#[ \t]*include[ \t]*[<\"]")
 forbid("core includes VTK" FILES ${all_core} PATTERN "${include}vtk")
 forbid("core includes what lies above it" FILES ${all_core} PATTERN "${include}(apps|vtk|picture)/")
 forbid("core prints" FILES ${all_core} PATTERN "std::(cout|cerr|clog)|[^a-z]f?printf[ ]*\\(")
-forbid("a producer of Green's functions includes a consumer" FILES ${core}/bem/*.h ${core}/bem/*.cpp
-  ${core}/halfspace/*.h ${core}/halfspace/*.cpp
-  PATTERN "${include}(contact|haptics)/")
 forbid("a producer of Green's functions includes a consumer or another producer"
-  FILES ${core}/fem/*.h ${core}/fem/*.cpp
-  PATTERN "${include}(bem|contact|haptics|halfspace|identification|shell)/")
-forbid("a producer of Green's functions includes a consumer or another producer"
-  FILES ${core}/shell/*.h ${core}/shell/*.cpp
-  PATTERN "${include}(bem|contact|fem|haptics|halfspace|identification)/")
-forbid("a producer of Green's functions includes another" FILES ${core}/halfspace/*.h ${core}/halfspace/*.cpp
-  PATTERN "${include}(bem|fem|identification|shell)/")
-forbid("a producer of Green's functions includes another" FILES ${core}/bem/*.h ${core}/bem/*.cpp
-  PATTERN "${include}(fem|halfspace|identification|shell)/")
+  FILES ${core}/imported/*.h ${core}/imported/*.cpp PATTERN "${include}(bem|contact|fem|haptics|halfspace|identification)/")
+# The rooms that make Green's functions; identification is to be one.
+set(producers bem fem halfspace identification imported shell)
+foreach(room bem fem halfspace imported shell)
+  set(others ${producers})
+  list(REMOVE_ITEM others ${room})
+  list(JOIN others "|" others)
+  forbid("a producer of Green's functions includes a consumer or another producer"
+    FILES ${core}/${room}/*.h ${core}/${room}/*.cpp PATTERN "${include}(${others}|contact|haptics)/")
+endforeach()
+list(JOIN producers "|" producers)
 forbid("contact includes the haptic room" FILES ${core}/contact/*.h ${core}/contact/*.cpp
   PATTERN "${include}haptics/")
 forbid("a consumer of Green's functions includes a producer"
   FILES ${core}/contact/*.h ${core}/contact/*.cpp ${core}/haptics/*.h ${core}/haptics/*.cpp
-  PATTERN "${include}(bem|fem|halfspace|identification|shell)/")
+  PATTERN "${include}(${producers})/")
 forbid("Green's functions include a producer or a consumer"
   FILES ${core}/greens/*.h ${core}/greens/*.cpp
-  PATTERN "${include}(bem|fem|halfspace|identification|shell|contact|haptics)/")
+  PATTERN "${include}(${producers}|contact|haptics)/")
 forbid("the accuracy room includes another" FILES ${core}/accuracy/*.h ${core}/accuracy/*.cpp
-  PATTERN "${include}(mesh|model|bem|halfspace|shell|greens|contact|haptics)/")
+  PATTERN "${include}(mesh|model|${producers}|greens|contact|haptics)/")
 forbid("the mesh room includes a room above it" FILES ${core}/mesh/*.h ${core}/mesh/*.cpp
-  PATTERN "${include}(model|bem|halfspace|shell|greens|contact|haptics)/")
+  PATTERN "${include}(model|${producers}|greens|contact|haptics)/")
 forbid("a header includes a third party other than Eigen" FILES ${core}/*.h
   PATTERN "${include}(CGAL|OpenMesh|xsimd|ceres|hidapi|nlohmann|boost|lapacke|cblas)"
   EXCEPT "filters/core/(simd/|mesh/(cgal|open_mesh)_surface[.]h|haptics/json_reader[.]h)")
@@ -80,7 +79,7 @@ forbid("JSON outside the header that reads it"
 forbid("a filter includes an app" FILES ${SOURCE}/filters/vtk/*.h ${SOURCE}/filters/vtk/*.cxx
   PATTERN "${include}(apps|picture|terminal|commands)")
 forbid("a public VTK header includes the core or Eigen" FILES ${SOURCE}/filters/vtk/*/vtk*.h
-  PATTERN "${include}(Eigen|mesh/|model/|bem/|halfspace/|shell/|greens/|contact/|haptics/)")
+  PATTERN "${include}(Eigen|(mesh|model|${producers}|greens|contact|haptics)/)")
 forbid("batch filters include rendering or devices"
   FILES ${SOURCE}/filters/vtk/elastostatics/* ${SOURCE}/filters/vtk/io/*
   PATTERN "${include}(vtkRender|vtkActor|vtkInteractor|hidapi)")

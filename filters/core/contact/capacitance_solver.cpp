@@ -70,7 +70,8 @@ CapacitanceSolver::CapacitanceSolver(std::shared_ptr<const GreensFunctions> gree
 
 /// After releases, the displacement constraints that remain must still hold every body.
 void CapacitanceSolver::requireSupported(const std::vector<ConstraintSwitch>& switches) const {
-  if (greens_->info().domain == Domain::Exterior) return;
+  const Domain domain = greens_->info().domain;
+  if (domain == Domain::Exterior || domain == Domain::Given) return;
   const bool releases = std::any_of(switches.begin(), switches.end(),
                                     [&](const auto& s) { return greens_->isFixed(s.node); });
   if (!releases) return;

@@ -26,6 +26,9 @@ Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const Surfac
                                      const Eigen::VectorXi& patches,
                                      const Eigen::Vector3d& weight) {
   const GreensFunctionsInfo& info = greens.info();
+  if (info.domain == Domain::Given)
+    throw std::invalid_argument(
+        "the weight of what a given matrix is of is not known from its surface");
   if (info.domain != Domain::Interior)
     throw std::invalid_argument(
         info.domain == Domain::HalfSpace

@@ -11,6 +11,8 @@ extern "C" {
 void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
 void sgetrf_(const int*, const int*, float*, const int*, int*, int*);
 void dgetri_(const int*, double*, const int*, const int*, double*, const int*, int*);
+void dpotrf_(const char*, const int*, double*, const int*, int*, std::size_t);
+void dpotri_(const char*, const int*, double*, const int*, int*, std::size_t);
 void dlaswp_(const int*, double*, const int*, const int*, const int*, const int*, const int*);
 void slaswp_(const int*, float*, const int*, const int*, const int*, const int*, const int*);
 void dgecon_(const char*, const int*, const double*, const int*, const double*, double*, double*,
@@ -36,6 +38,27 @@ int getri(int n, double* lu, int ldlu, const int* pivots, double* work, int work
   int info = 0;
   dgetri_(&n, lu, &ldlu, pivots, work, &workSize, &info);
   return info;
+}
+
+int potrf(int n, double* a, int lda) {
+  int info = 0;
+  dpotrf_("L", &n, a, &lda, &info, 1);
+  return info;
+}
+
+int potri(int n, double* l, int lda) {
+  int info = 0;
+  dpotri_("L", &n, l, &lda, &info, 1);
+  return info;
+}
+
+void trsmLower(int m, int n, const double* l, int ldl, double* b, int ldb) {
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, m, n, 1, l, ldl, b,
+              ldb);
+}
+
+void subtractSquare(int n, int k, const double* a, int lda, double* c, int ldc) {
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, k, -1, a, lda, 1, c, ldc);
 }
 
 void laswp(int n, double* a, int lda, int first, int last, const int* pivots) {

@@ -17,6 +17,19 @@ int getrf(int m, int n, float* a, int lda, int* pivots);
 /// pivot.
 int getri(int n, double* lu, int ldlu, const int* pivots, double* work, int workSize);
 
+/// Cholesky's L of a symmetric n by n matrix, of which the lower triangle is read and overwritten.
+/// @return 0, or the order, from 1, of the first leading minor that is not positive.
+int potrf(int n, double* a, int lda);
+
+/// The lower triangle of the inverse of a matrix that potrf factored.
+int potri(int n, double* l, int lda);
+
+/// B := L^-1 B for the lower triangle of an m by m matrix, its diagonal included, and m by n B.
+void trsmLower(int m, int n, const double* l, int ldl, double* b, int ldb);
+
+/// C := C - A^T A in the lower triangle, for k by n A.
+void subtractSquare(int n, int k, const double* a, int lda, double* c, int ldc);
+
 /// Applies the row interchanges first..last (from 1) of `pivots` to n columns.
 void laswp(int n, double* a, int lda, int first, int last, const int* pivots);
 void laswp(int n, float* a, int lda, int first, int last, const int* pivots);

@@ -47,7 +47,8 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
     requireHalfSpace();
   else if (mesh_->rims() == Rims::Allowed && rimsOf(domain_) == Rims::Refused)
     throw std::invalid_argument(
-        "a sheet with rims bounds a half-space or is a shell's middle, it bounds no other domain");
+        "a sheet with rims bounds a half-space, is a shell's middle or belongs to a given matrix, it "
+        "bounds no other domain");
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
   for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
     if (mesh_->isCavity(shell))

@@ -20,11 +20,12 @@ enum class Domain {
   Exterior,   ///< infinite space around the surface; needs no support, as displacements fade away
   HalfSpace,  ///< all below the plane that the surface is a part of; needs no support
   Shell,      ///< a thin layer about the surface, its middle; what holds it, ThinShell says
+  Given,      ///< whatever a given matrix is of: holds itself, and the surface may have rims
 };
 
 /// Whether the surface of a domain may end.
 constexpr Rims rimsOf(Domain domain) {
-  return domain == Domain::HalfSpace || domain == Domain::Shell ? Rims::Allowed : Rims::Refused;
+  return domain == Domain::Interior || domain == Domain::Exterior ? Rims::Refused : Rims::Allowed;
 }
 
 /// A reference boundary value problem: surface, material, and what is given where ([JP01] section

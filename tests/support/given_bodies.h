@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "imported/imported_greens_functions.h"
+#include "support/solids.h"
+
+namespace palpate::test {
+
+/// A reference problem of what a matrix is given of.
+inline ElasticModel givenModel(
+    const Shape& shape, const Place& fixed = [](auto&&) { return false; }) {
+  const auto mesh = shape.sheet();
+  return ElasticModel(mesh, Material(1, 0), BoundaryConditions(fixedWhere(shape, fixed)),
+                      Eigen::VectorXi::Zero(mesh->triangleCount()), Domain::Given);
+}
+
+/// A frame of springs along the edges of tetrahedra, of stiffness 1 over their length: loose.
+inline Eigen::MatrixXd trussStiffness(const Solid& solid) {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * solid.points.cols(), solid.points.size());
+  for (const auto& cell : solid.tetrahedra.colwise())
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        const int a = cell[i], b = cell[j];
+        const Eigen::Vector3d along = solid.points.col(a) - solid.points.col(b);
+        const Eigen::Matrix3d spring = along * along.transpose() / std::pow(along.norm(), 3);
+        stiffness.block<3, 3>(3 * a, 3 * a) += spring;
+        stiffness.block<3, 3>(3 * b, 3 * b) += spring;
+        stiffness.block<3, 3>(3 * a, 3 * b) -= spring;
+        stiffness.block<3, 3>(3 * b, 3 * a) -= spring;
+      }
+  return stiffness;
+}
+
+/// The same numbers as entries.
+inline std::vector<GivenMatrix::Entry> entriesOf(const Eigen::MatrixXd& matrix) {
+  std::vector<GivenMatrix::Entry> entries;
+  for (int j = 0; j < matrix.cols(); ++j)
+    for (int i = 0; i < matrix.rows(); ++i)
+      if (matrix(i, j) != 0) entries.emplace_back(i, j, matrix(i, j));
+  return entries;
+}
+
+inline GivenMatrix given(const Eigen::MatrixXd& matrix) {
+  return GivenMatrix(matrix, "test", "given");
+}
+
+inline NodeTable nodesAt(const Eigen::Matrix3Xd& points) {
+  NodeTable nodes;
+  nodes.points = points;
+  return nodes;
+}
+
+/// The force compliance S_ij = Xi_ij / a_j between some nodes.
+inline Eigen::MatrixXd forceCompliance(const GreensFunctions& greens,
+                                       const std::vector<int>& nodes) {
+  Eigen::MatrixXd compliance(3 * nodes.size(), 3 * nodes.size());
+  greens.gather(nodeList(nodes), nodeList(nodes), compliance.data());
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    compliance.middleCols<3>(3 * j) /= greens.vertexArea(nodes[j]);
+  return compliance;
+}
+
+}  // namespace palpate::test
