@@ -16,6 +16,7 @@ void addRepair(CLI::App& program);
 void addRefine(CLI::App& program);
 void addRemesh(CLI::App& program);
 void addPrecompute(CLI::App& program);
+void addImport(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);

@@ -38,7 +38,7 @@ void printSurface(vtkPolyData* surface) {
   const Eigen::Matrix3Xd points = convert::pointsOf(surface);
   const Eigen::Matrix3Xi triangles = convert::trianglesOf(surface);
   const std::string domain = convert::fieldString(surface, "GreensFunctionDomain");
-  const bool isSheet = domain == "halfspace" || domain == "shell";
+  const bool isSheet = domain == "halfspace" || domain == "shell" || domain == "given";
   const Rims rims = isSheet ? Rims::Allowed : Rims::Refused;
   const std::vector<MeshDefect> defects = findMeshDefects(points, triangles, 16, rims);
   if (!defects.empty()) {

@@ -10,29 +10,37 @@
 #include <cstdlib>
 
 namespace palpate::app {
+namespace {
+
+constexpr const char* kGroup = "Support and material (by default the file's)";
+
+}  // namespace
 
 void SupportOptions::addTo(CLI::App& command) {
-  const std::string group = "Support and material (by default the file's)";
   const CLI::Validator isNumber(
       [](const std::string& text) {
         return std::isnan(std::strtod(text.c_str(), nullptr)) ? "not a number: " + text : "";
       },
       "");
-  command.add_option("--young", young, "Young's modulus, Pa")->check(isNumber)->group(group);
+  command.add_option("--young", young, "Young's modulus, Pa")->check(isNumber)->group(kGroup);
   command.add_option("--poisson", poisson, "Poisson's ratio, above -1 up to 0.5")
       ->check(isNumber)
-      ->group(group);
+      ->group(kGroup);
+  addPlacesTo(command);
+}
+
+void SupportOptions::addPlacesTo(CLI::App& command) {
   command.add_option("--fix-array", fixedArray, "Fix vertices where this point array is not zero")
-      ->group(group);
+      ->group(kGroup);
   command.add_option("--fix-half-space", halfSpace, "Fix vertices behind a plane: point, normal")
       ->expected(6)
-      ->group(group);
+      ->group(kGroup);
   command.add_option("--fix-box", box, "Fix vertices in a box: xmin xmax ymin ymax zmin zmax")
       ->expected(6)
-      ->group(group);
+      ->group(kGroup);
   command.add_option("--fix-sphere", sphere, "Fix vertices in a ball: centre, radius")
       ->expected(4)
-      ->group(group);
+      ->group(kGroup);
 }
 
 void SupportOptions::applyTo(vtkReferenceBoundaryConditions* filter) const {

@@ -20,6 +20,8 @@ struct SupportOptions {
   std::string fixedArray;
   std::vector<double> halfSpace, box, sphere;
   void addTo(CLI::App& command);
+  /// Those of the support alone.
+  void addPlacesTo(CLI::App& command);
   void applyTo(vtkReferenceBoundaryConditions* filter) const;
 };
 

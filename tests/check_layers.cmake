@@ -32,8 +32,6 @@ set(include "^[ \t]*#[ \t]*include[ \t]*[<\"]")
 forbid("core includes VTK" FILES ${all_core} PATTERN "${include}vtk")
 forbid("core includes what lies above it" FILES ${all_core} PATTERN "${include}(apps|vtk|picture)/")
 forbid("core prints" FILES ${all_core} PATTERN "std::(cout|cerr|clog)|[^a-z]f?printf[ ]*\\(")
-forbid("a producer of Green's functions includes a consumer or another producer"
-  FILES ${core}/imported/*.h ${core}/imported/*.cpp PATTERN "${include}(bem|contact|fem|haptics|halfspace|identification)/")
 # The rooms that make Green's functions; identification is to be one.
 set(producers bem fem halfspace identification imported shell)
 foreach(room bem fem halfspace imported shell)

@@ -21,6 +21,7 @@ from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
+from .imports import import_compliance, import_stiffness
 from .precomputation import precompute
 from .surfaces import refine, remesh, repair
 from .version import __version__
@@ -34,6 +35,8 @@ __all__ = [
     "example",
     "greens_function_nodes",
     "greens_functions",
+    "import_compliance",
+    "import_stiffness",
     "precompute",
     "press",
     "probe",

@@ -179,6 +179,17 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         greens.SetClamped(flag(clamped, "clamped"))
     else:
         greens = vtkHalfSpaceGreensFunctions()
+    greens.SetInputData(posed(surface, young, poisson, fixed))
+    greens.SetReciprocal(flag(reciprocal, "reciprocal"))
+    greens.SetNumberOfThreads(whole_number(threads, "threads", 1024))
+    if columns is not None:
+        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
+        greens.SetColumnNodes(as_ids(nodes, "columns"))
+    return computed(greens, progress)
+
+
+def posed(surface, young, poisson, fixed):
+    """A copy of a surface with its material and support, as `precompute` takes them."""
     conditions = vtkReferenceBoundaryConditions()
     conditioned = vtkPolyData()
     conditioned.ShallowCopy(surface_of(surface))
@@ -198,19 +209,17 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         conditions.SetYoungsModulus(number(young, "Young's modulus"))
     if poisson is not None:
         conditions.SetPoissonRatio(number(poisson, "Poisson's ratio"))
+    result = run(conditions)
+    result.GetPointData().RemoveArray(FIXED)
+    return result
 
-    posed = run(conditions)
-    posed.GetPointData().RemoveArray(FIXED)
-    greens.SetInputData(posed)
-    greens.SetReciprocal(flag(reciprocal, "reciprocal"))
-    greens.SetNumberOfThreads(whole_number(threads, "threads", 1024))
-    if columns is not None:
-        nodes = vertex_list(columns, surface.GetNumberOfPoints(), "columns")
-        greens.SetColumnNodes(as_ids(nodes, "columns"))
+
+def computed(greens, progress, stacklevel=3):
+    """The model that a filter makes, with its warnings, to whoever is so many calls above."""
     model = run(greens, progress_callback(progress))
     if model.GetFieldData().HasArray("Warnings"):
         for sentence in array(model, "Warnings"):
-            warnings.warn(sentence, ModelWarning, stacklevel=2)
+            warnings.warn(sentence, ModelWarning, stacklevel=stacklevel)
     return model
 
 

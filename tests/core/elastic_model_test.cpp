@@ -137,6 +137,19 @@ TEST(ModelWarnings, ASmallSupportIsNamedWithItsWidth) {
           " edges wide: its compliance depends on the mesh; fix an area at least 3 edges wide");
 }
 
+TEST(ElasticModel, WhatAMatrixIsGivenOfMayHaveRimsAndNoSupport) {
+  const auto mesh = plate(1, 2).sheet();
+  const auto model = [&](Domain domain, unsigned char type) {
+    std::vector<unsigned char> types(mesh->vertexCount(), 0);
+    types[3] = type;
+    return ElasticModel(mesh, Material(1, 0), BoundaryConditions(types),
+                        Eigen::VectorXi::Zero(mesh->triangleCount()), domain);
+  };
+  EXPECT_NE(model(Domain::Given, 0).fingerprint(), model(Domain::HalfSpace, 0).fingerprint());
+  EXPECT_EQ(model(Domain::Given, 1).conditions().fixedNodes(), std::vector<int>{3});
+  EXPECT_TRUE(isRefused([&] { model(Domain::Exterior, 0); }, "a sheet with rims"));
+}
+
 TEST(ModelWarnings, AnExteriorDomainHasNeitherWallsNorSupport) {
   const Warnings warnings(
       makeModel(box({1, 1, 0.01}, {4, 4, 1}), nowhere, 1, 0.3, 30, Domain::Exterior));

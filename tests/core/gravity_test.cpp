@@ -8,6 +8,7 @@
 #include "mesh/smooth_patches.h"
 #include "support/problems.h"
 #include "support/refusals.h"
+#include "support/synthetic_greens.h"
 
 namespace palpate::test {
 namespace {
@@ -94,6 +95,12 @@ TEST(Gravity, RefusesWhatItCannotKnow) {
   EXPECT_TRUE(
       isRefused([&] { gravityDisplacement(*around, space.mesh(), space.smoothPatches(), weight); },
                 "has no weight"));
+  SyntheticBody given;
+  GreensFunctionsInfo info = given.info();
+  info.domain = Domain::Given;
+  const auto imported = denseGreens(info, given.matrix());
+  EXPECT_TRUE(isRefused([&] { gravityDisplacement(*imported, model.mesh(), {}, weight); },
+                        "the weight of what a given matrix is of is not known"));
 }
 
 }  // namespace

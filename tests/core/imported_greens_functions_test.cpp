@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <numeric>
 #include <random>
 
 #include "contact/surface_stiffness.h"
@@ -31,14 +30,8 @@ std::shared_ptr<const GreensFunctions> imported(const ElasticModel& model, Matri
   return importGreensFunctions(model, kind, given(matrix), nodes, options).greens.take();
 }
 
-std::vector<int> upTo(int count) {
-  std::vector<int> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 Eigen::MatrixXd gathered(const GreensFunctions& greens, const std::vector<int>& columns) {
-  const std::vector<int> rows = upTo(greens.nodeCount());
+  const std::vector<int> rows = nodesUpTo(greens.nodeCount());
   Eigen::MatrixXd blocks(3 * rows.size(), 3 * columns.size());
   greens.gather(nodeList(rows), nodeList(columns), blocks.data());
   return blocks;
@@ -64,7 +57,7 @@ struct Truss {
 
 TEST(ImportedGreensFunctions, AComplianceComesBackAsItWas) {
   const HalfSpace body = halfSpace(jitteredPlate(1, 6, 0.3), 0.3, true, 1e4);
-  const std::vector<int> all = upTo(body.mesh->vertexCount());
+  const std::vector<int> all = nodesUpTo(body.mesh->vertexCount());
   const auto greens = imported(givenModel(jitteredPlate(1, 6, 0.3)), MatrixKind::Compliance,
                                forceCompliance(*body.greens, all));
   EXPECT_LE(relativeDifference(gathered(*greens, all), gathered(*body.greens, all)), 1e-14);
@@ -80,7 +73,7 @@ TEST(ImportedGreensFunctions, AreAsStiffAsWhatTheyAreFrom) {
   const Shape shape = plate(1, 8);
   const HalfSpace body = halfSpace(shape, 0.3, true, 5e3);
   const auto greens = imported(givenModel(shape), MatrixKind::Compliance,
-                               forceCompliance(*body.greens, upTo(body.mesh->vertexCount())));
+                               forceCompliance(*body.greens, nodesUpTo(body.mesh->vertexCount())));
   const SurfaceStiffness here(greens, body.mesh, MaskShape::Linear, 0.25),
       there(body.greens, body.mesh, MaskShape::Linear, 0.25);
   EXPECT_LE(relativeDifference(here.elastic(40), there.elastic(40)), 1e-12);
@@ -133,7 +126,7 @@ TEST(ImportedGreensFunctions, ReactionsOutweighForces) {
 TEST(ImportedGreensFunctions, MovedSupportsCarryTheBodyRigidly) {
   const Truss truss;
   ImportOptions options;
-  options.columns = upTo(truss.model.mesh().vertexCount());
+  options.columns = nodesUpTo(truss.model.mesh().vertexCount());
   const auto greens =
       imported(truss.model, MatrixKind::Stiffness, truss.stiffness, truss.nodes, options);
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, greens->nodeCount());
@@ -270,7 +263,7 @@ TEST(ImportedGreensFunctions, ALargeSparseStiffnessIsCondensedAsADenseOne) {
 
 TEST(ImportedGreensFunctions, RawComplianceStaysAsItIs) {
   const HalfSpace body = halfSpace(jitteredPlate(1, 6, 0.3), 0.3, false);
-  const std::vector<int> all = upTo(body.mesh->vertexCount());
+  const std::vector<int> all = nodesUpTo(body.mesh->vertexCount());
   const Eigen::MatrixXd compliance = forceCompliance(*body.greens, all);
   const ElasticModel model = givenModel(jitteredPlate(1, 6, 0.3));
   EXPECT_TRUE(isRefused([&] { imported(model, MatrixKind::Compliance, compliance); },
@@ -305,7 +298,7 @@ TEST(ImportedGreensFunctions, WhatIsNoElasticBodyIsRefused) {
   loose.block<81, 3>(0, 39).setZero();
   loose(39, 39) = -1;
   refused(MatrixKind::Stiffness, loose, "(node 14, x)");
-  std::vector<int> swapped = upTo(81);
+  std::vector<int> swapped = nodesUpTo(81);
   for (int c = 0; c < 3; ++c) std::swap(swapped[3 + c], swapped[75 + c]);
   refused(MatrixKind::Stiffness, k(swapped, swapped), "not where the surface has them");
   std::vector<int> byComponent;
@@ -345,6 +338,28 @@ TEST(ImportedGreensFunctions, WhatDoesNotFitTheSurfaceIsRefused) {
                               MatrixKind::Stiffness, given(k), truss.nodes);
       },
       "point into what it encloses"));
+}
+
+TEST(ImportedGreensFunctions, EachPieceOfASurfaceMustBeHeld) {
+  const Truss truss;
+  const Shape one = boundaryOf(truss.solid.mesh());
+  const Shape two = one.with(one.moved({3, 0, 0}));
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(162, 162);
+  stiffness.topLeftCorner(81, 81) = stiffness.bottomRightCorner(81, 81) = truss.stiffness;
+  NodeTable nodes = truss.nodes;
+  nodes.points.conservativeResize(3, 54);
+  nodes.points.rightCols(27) = truss.nodes.points.colwise() + Eigen::Vector3d(3, 0, 0);
+  const auto serve = [&](const Place& held) {
+    return imported(givenModel(two, held), MatrixKind::Stiffness, stiffness, nodes);
+  };
+  const auto greens = serve(base),
+             alone = imported(truss.model, MatrixKind::Stiffness, truss.stiffness, truss.nodes);
+  const std::vector<int> columns = alone->info().columnNodes;
+  EXPECT_LE(relativeDifference(forceCompliance(*greens, columns), forceCompliance(*alone, columns)),
+            1e-12);
+  EXPECT_EQ(blockOf(*greens, 40, columns[0]).norm(), 0);
+  EXPECT_TRUE(isRefused([&] { serve([](auto&& x) { return base(x) && x.x() < 2; }); },
+                        "leave the body free to move"));
 }
 
 TEST(ImportedGreensFunctions, UnitsThatNoMaterialHasAreWarnedOf) {

@@ -10,7 +10,8 @@ import unittest
 
 import palpate
 import palpate.haptics
-from palpate import arrays, contacts, errors, fields, files, precomputation, surfaces
+from palpate import (arrays, contacts, errors, fields, files, imports, precomputation,
+                     surfaces)
 
 
 class Docstrings(unittest.TestCase):
@@ -25,8 +26,8 @@ class Docstrings(unittest.TestCase):
 
     def test_every_example_runs(self):
         examples = 0
-        for module in (palpate, arrays, contacts, errors, fields, files, precomputation, surfaces,
-                       palpate.haptics):
+        for module in (palpate, arrays, contacts, errors, fields, files, imports, precomputation,
+                       surfaces, palpate.haptics):
             failed, attempted = doctest.testmod(module)
             self.assertEqual(failed, 0, module.__name__)
             examples += attempted

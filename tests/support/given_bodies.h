@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "imported/imported_greens_functions.h"
@@ -54,6 +55,12 @@ inline NodeTable nodesAt(const Eigen::Matrix3Xd& points) {
   NodeTable nodes;
   nodes.points = points;
   return nodes;
+}
+
+inline std::vector<int> nodesUpTo(int count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 /// The force compliance S_ij = Xi_ij / a_j between some nodes.

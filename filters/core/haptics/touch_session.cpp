@@ -172,11 +172,12 @@ std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneB
   std::vector<std::string> warnings;
   const GreensFunctions& greens = *bodies[0].greens;
   if (const int missing = greens.missingCount())
-    warnings.push_back(
-        "the model has no Green's functions of " + std::to_string(missing) + " of its " +
-        std::to_string(greens.info().conditions.freeNodes().size()) +
-        " free vertices and gives no force near them: `palpate precompute` without --columns "
-        "computes all");
+    warnings.push_back("the model has no Green's functions of " + std::to_string(missing) +
+                       " of its " + std::to_string(greens.info().conditions.freeNodes().size()) +
+                       " free vertices and gives no force near them: " +
+                       (greens.info().domain == Domain::Given
+                            ? "they are held where its matrix is from, or were left out"
+                            : "`palpate precompute` without --columns computes all"));
   const double edge = bodies[0].mesh->meanEdgeLength();
   const auto warnIf = [&](bool isCoarse, const std::string& what, double radius) {
     if (isCoarse)

@@ -35,6 +35,30 @@ double answerToTranslations(const GivenMatrix& matrix, const std::vector<int>& c
   return matrix.times(motions).norm() / matrix.times(signs).norm();
 }
 
+/// That a piece of the surface cannot move while the others and the fixed points stay in place.
+void requireHeldPiece(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
+                      const Eigen::VectorXi& pieces, int piece, bool hasFixed, bool isNowhereHeld,
+                      std::vector<std::string>& warnings) {
+  std::vector<int> points, rows;
+  for (int i = 0; i < pieces.size(); ++i)
+    if (pieces[i] == piece) {
+      points.push_back(i);
+      for (int c = 0; c < 3; ++c) rows.push_back(3 * i + c);
+    }
+  if (points.empty()) return;
+  const RigidMotions held = rigidMotions(stiffness(rows, rows), free(Eigen::all, points));
+  const double least = held.shares[0];
+  if (least < kFree || isNowhereHeld)
+    refuse(hasFixed ? "the stiffness and the fixed vertices leave" : "the stiffness leaves",
+           " the body free to move (", held.weakest.describe(),
+           "): fix at least three vertices that are not on one line");
+  if (least < kLoose)
+    warnings.push_back(sentence(
+        "the body is held weakly (", held.weakest.describe(), " costs ", least,
+        " of the work of its points by themselves): where the file has few digits, that is "
+        "rounding"));
+}
+
 std::vector<int> componentsOf(const NodePlaces& places) {
   std::vector<int> components;
   for (const MatrixDof& dof : places.dofs) components.push_back(dof.component);
@@ -57,7 +81,8 @@ void requireOrder(const GivenMatrix& stiffness, const NodePlaces& places, DofOrd
 }
 
 void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
-                 const Eigen::Matrix3Xd& fixed, std::vector<std::string>& warnings) {
+                 const Eigen::VectorXi& pieces, const Eigen::Matrix3Xd& fixed,
+                 std::vector<std::string>& warnings) {
   Eigen::Matrix3Xd all(3, free.cols() + fixed.cols());
   all << free, fixed;
   for (Eigen::Index row = 0; row < stiffness.rows(); ++row)
@@ -75,19 +100,9 @@ void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
     warnings.push_back(
         "moved as a whole, the body resists more than all its points by themselves: is the matrix "
         "a compliance?");
-  const RigidMotions held =
-      rigidMotions(stiffness.topLeftCorner(3 * free.cols(), 3 * free.cols()), free);
-  const double least = held.shares[0];
-  if (least < kFree || (fixed.cols() == 0 && isLoose && moved.maxCoeff() < kLoose))
-    refuse(
-        fixed.cols() == 0 ? "the stiffness leaves" : "the stiffness and the fixed vertices leave",
-        " the body free to move (", held.weakest.describe(),
-        "): fix at least three vertices that are not on one line");
-  if (least < kLoose)
-    warnings.push_back(sentence(
-        "the body is held weakly (", held.weakest.describe(), " costs ", least,
-        " of the work of its points by themselves): where the file has few digits, that is "
-        "rounding"));
+  const bool isNowhereHeld = fixed.cols() == 0 && isLoose && moved.maxCoeff() < kLoose;
+  for (int piece = 0; piece <= pieces.maxCoeff(); ++piece)
+    requireHeldPiece(stiffness, free, pieces, piece, fixed.cols() > 0, isNowhereHeld, warnings);
 }
 
 void requireNoStiffness(const GivenMatrix& compliance, const NodePlaces& places) {

@@ -23,10 +23,13 @@ void requireNoStiffness(const GivenMatrix& compliance, const NodePlaces& places)
 
 /// @param stiffness    of free points, then of fixed ones, N/m, symmetric.
 /// @param free, fixed  3 by any, m.
-/// @throws std::invalid_argument naming a rigid motion that nothing resists, or if the points are
+/// @param pieces       #free, the piece of the surface that each is on, from 0.
+/// @throws std::invalid_argument naming a rigid motion of a piece that nothing resists, or if the
+/// points are
 ///         not in the order of the stiffness: translations do no work, but rotations do.
 void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
-                 const Eigen::Matrix3Xd& fixed, std::vector<std::string>& warnings);
+                 const Eigen::VectorXi& pieces, const Eigen::Matrix3Xd& fixed,
+                 std::vector<std::string>& warnings);
 
 /// @param compliance  m/N, as it will be served.
 /// @param defect      its relative asymmetry, which eigenvalues are uncertain by.

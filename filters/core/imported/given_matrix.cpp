@@ -65,6 +65,12 @@ int GivenMatrix::size() const {
       std::visit([](const auto& values) { return Eigen::Index(values.rows()); }, values_));
 }
 
+std::size_t GivenMatrix::bytes() const {
+  if (const auto* sparse = std::get_if<Sparse>(&values_))
+    return sparse->nonZeros() * (sizeof(double) + sizeof(int));
+  return std::get<Eigen::MatrixXd>(values_).size() * sizeof(double);
+}
+
 Eigen::MatrixXd GivenMatrix::block(const std::vector<int>& rows,
                                    const std::vector<int>& columns) const {
   if (const auto* dense = std::get_if<Eigen::MatrixXd>(&values_)) return (*dense)(rows, columns);

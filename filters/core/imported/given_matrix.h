@@ -50,6 +50,7 @@ class GivenMatrix {
               const std::string& name);
 
   int size() const;
+  std::size_t bytes() const;
   bool isSparse() const { return values_.index() == 1; }
   const std::string& format() const { return format_; }
 

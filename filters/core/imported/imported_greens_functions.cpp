@@ -141,7 +141,11 @@ Response Import::stiffnessResponse() {
   Eigen::MatrixXd stiffness =
       imported::condensedStiffness(matrix_, parts_.rows, places_, progress_.part(0.1, 0.5));
   stiffness *= options_.forceUnit / options_.lengthUnit;
-  imported::requireHeld(stiffness, pointsOf(parts_.free), pointsOf(parts_.fixed), warnings_);
+  Eigen::VectorXi pieces(parts_.free.size());
+  for (std::size_t i = 0; i < parts_.free.size(); ++i)
+    pieces[i] = model_.mesh().bodyOfVertex(parts_.free[i]);
+  imported::requireHeld(stiffness, pointsOf(parts_.free), pieces, pointsOf(parts_.fixed),
+                        warnings_);
   int row = -1;
   const Eigen::Index free = 3 * parts_.free.size();
   Response response = imported::responseOfStiffness(std::move(stiffness), free, row);
@@ -180,7 +184,7 @@ void Import::compute(Diagnostics& diagnostics) {
       !response_.holding.allFinite())
     refuse("the ", kKinds[int(kind_)], " cannot be inverted where vertices are fixed");
   addSeconds(diagnostics, "solve", watch.seconds());
-  diagnostics.peakBytes = sizeof(double) * 3 * response_.compliance.size();
+  diagnostics.peakBytes = matrix_.bytes() + sizeof(double) * 3 * response_.compliance.size();
   diagnostics.reciprocityDefect = defect_;
 }
 

@@ -83,7 +83,8 @@ constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
 constexpr const char* HomogeneousMaterial = "HomogeneousMaterial"; // 0, or absent
-constexpr const char* GreensFunctionDomain = "GreensFunctionDomain"; // interior, exterior, halfspace, shell
+/// interior, exterior, halfspace, shell or given
+constexpr const char* GreensFunctionDomain = "GreensFunctionDomain";
 constexpr const char* Clamped = "Clamped"; // of shells: 1 fixed vertices do not turn, 0 they do
 constexpr const char* GreensFunctionsReciprocal = "GreensFunctionsReciprocal"; // uint8
 constexpr const char* MeshFingerprint = "MeshFingerprint";                     // uint64

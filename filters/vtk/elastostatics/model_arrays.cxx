@@ -239,7 +239,7 @@ void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
   }
 }
 
-constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell" };
+constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell", "given" };
 
 Domain domainOf(vtkPolyData* surface)
 {
@@ -291,7 +291,7 @@ ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
   const bool isShell = domain == Domain::Shell, isGiven = !isShell && hasGivenPatches(surface, *mesh);
   Eigen::VectorXi patches = isGiven ? storedPatches(surface)
                                     : findSmoothPatches(*mesh, isShell ? OnePatchAngle : smoothAngle);
-  return ElasticModel(mesh, materialOf(surface),
+  return ElasticModel(mesh, domain == Domain::Given ? Material(1, 0) : materialOf(surface),
     isShell ? shellConditionsOf(surface)
             : BoundaryConditions(boundaryTypesOf(surface, domain != Domain::Interior)),
     std::move(patches), domain);

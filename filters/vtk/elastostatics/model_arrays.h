@@ -19,12 +19,13 @@ namespace palpate::convert
 /// A surface checked whole, self-intersections included.
 std::shared_ptr<const SurfaceMesh> soundMeshOf(vtkPolyData* surface, Rims rims = Rims::Refused);
 
-/// A surface, with rims only if it carries Green's functions of a half-space or a shell.
+/// A surface, with rims only if it carries Green's functions of a half-space, a shell or a given matrix.
 SurfaceMesh meshOf(vtkPolyData* surface);
 
 /// The reference problem of a surface with boundary types, smooth patches and material.
 /// @param smoothAngle  for smooth patches where the surface carries no SmoothPatch array; a shell has one
 ///                     a piece.
+/// @param domain       Given needs no material.
 ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain);
 
 /// Adds Green's functions with their provenance and diagnostics. Takes over their memory. Those of a
