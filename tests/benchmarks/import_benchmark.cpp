@@ -11,6 +11,8 @@
 #include "support/given_bodies.h"
 #include "support/half_space.h"
 
+extern "C" void dpotri_(const char*, const int*, double*, const int*, int*, std::size_t);
+
 namespace palpate::bench {
 namespace {
 
@@ -26,7 +28,8 @@ struct Plate {
     const int size = static_cast<int>(compliance.rows());
     Eigen::MatrixXd matrix = compliance;
     lapack::potrf(size, matrix.data(), size);
-    lapack::potri(size, matrix.data(), size);
+    int failed = 0;
+    dpotri_("L", &size, matrix.data(), &size, &failed, 1);
     return matrix;
   }
   GivenMatrix stiffness() const {

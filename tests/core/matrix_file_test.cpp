@@ -158,6 +158,23 @@ TEST(MatrixFile, AMappingTellsWhatRowsAre) {
   refused("1 7 UX 3\n", "must give equation, node and degree of freedom");
 }
 
+TEST(MatrixFile, FortransNumbersMayTouch) {
+  const std::string whole = kHarwell;
+  std::string touching = whole;
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    const std::size_t at = touching.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    touching.replace(at, old.size(), by);
+  };
+  replace("(5I4) ", "(5I1) ");
+  replace("   1   2   2   3   3\n", "12233\n");
+  replace("(3D16.8)", "(3D15.8)");
+  replace("  4.00000000D+00 -1.50000000D+00  3.00000000D+00\n",
+          " 4.00000000D+00-1.50000000D+00 3.00000000D+00\n");
+  replace("  2.50000000D-03  1.00000000D+10\n", " 2.50000000D-03 1.00000000D+10\n");
+  EXPECT_EQ(valuesOf(readMatrixFile(TemporaryPath(touching).path())), Eigen::MatrixXd(expected()));
+}
+
 TEST(MatrixFile, NodesWithAndWithoutNumbers) {
   const Eigen::Vector3d second(4, 5.5, -6);
   for (const char* text : {"x,y,z\n1,2,3\n4,5.5,-6\n", "# nodes\n1 2 3\n4 5.5 -6\n"}) {

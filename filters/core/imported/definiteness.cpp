@@ -8,7 +8,7 @@
 #include <Eigen/SVD>
 #include <limits>
 
-#include "linear_algebra/lapack.h"
+#include "linear_algebra/dense_cholesky.h"
 
 namespace palpate::imported {
 namespace {
@@ -29,36 +29,37 @@ double largestEigenvalue(const Eigen::MatrixXd& symmetric) {
 }
 
 /// @return 0, or the row, from 1, where M + shift I is not positive definite.
-int rowNotPositive(const Eigen::MatrixXd& symmetric, double shift) {
+int rowNotPositive(const Eigen::MatrixXd& symmetric, double shift, const Progress& progress) {
   Eigen::MatrixXd factor = symmetric;
   factor.diagonal().array() += shift;
   const int size = static_cast<int>(factor.rows());
-  return lapack::potrf(size, factor.data(), size);
+  return factorCholesky(factor.data(), size, progress);
 }
 
 }  // namespace
 
-int invertDefinite(Eigen::MatrixXd& matrix) {
+int invertDefinite(Eigen::MatrixXd& matrix, const Progress& progress) {
   const int size = static_cast<int>(matrix.rows());
   for (int i = 0; i < size; ++i)
     if (!(matrix(i, i) > 0)) return i + 1;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
-  if (const int row = lapack::potrf(size, matrix.data(), size)) return row;
+  if (const int row = factorCholesky(matrix.data(), size, progress.part(0, 0.33))) return row;
   const double smallest = size * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < size; ++i)
     if (!(matrix(i, i) * matrix(i, i) > smallest)) return i + 1;
-  lapack::potri(size, matrix.data(), size);
+  invertCholesky(matrix.data(), size, progress.part(0.33, 1));
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
   return 0;
 }
 
-Negativity negativity(const Eigen::MatrixXd& symmetric, double tolerance) {
+Negativity negativity(const Eigen::MatrixXd& symmetric, double tolerance,
+                      const Progress& progress) {
   const double largest = largestEigenvalue(symmetric);
   Negativity found;
   const auto isNegative = [&](double share) {
-    const int row = rowNotPositive(symmetric, share * largest);
+    const int row = rowNotPositive(symmetric, share * largest, progress);
     if (row > 0) found.row = row - 1;
     return row > 0;
   };

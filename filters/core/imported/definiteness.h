@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "model/support.h"
+#include "progress.h"
 
 namespace palpate::imported {
 
@@ -14,7 +15,8 @@ namespace palpate::imported {
 /// @param matrix  both triangles; replaced by the inverse, exactly symmetric.
 /// @return 0, or the row, from 1, at which the matrix is not positive definite to rounding: it is
 ///         then lost.
-int invertDefinite(Eigen::MatrixXd& matrix);
+/// @throws Aborted.
+int invertDefinite(Eigen::MatrixXd& matrix, const Progress& progress = {});
 
 /// How negative a symmetric matrix is: the least eigenvalue, where it is negative, over the
 /// largest.
@@ -27,7 +29,9 @@ struct Negativity {
 /// By bisection with Cholesky factorisations of M + share |M| I: none but the first where all is
 /// well.
 /// @param tolerance  negative eigenvalues up to this share are rounding.
-Negativity negativity(const Eigen::MatrixXd& symmetric, double tolerance);
+/// @throws Aborted.
+Negativity negativity(const Eigen::MatrixXd& symmetric, double tolerance,
+                      const Progress& progress = {});
 
 /// The rigid motions of some points by the work that a stiffness does against them.
 struct RigidMotions {

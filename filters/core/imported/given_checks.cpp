@@ -113,13 +113,13 @@ void requireNoStiffness(const GivenMatrix& compliance, const NodePlaces& places)
 }
 
 Negativity requireCompliance(const Eigen::MatrixXd& compliance, double defect,
-                             std::vector<std::string>& warnings) {
+                             std::vector<std::string>& warnings, const Progress& progress) {
   constexpr double rounding = 1e-12, fewDigits = 1e-6;
   if (togetherOverApart(compliance) < 0.5)
     warnings.push_back(
         "under forces on all points the body yields less than under those on each: is the matrix a "
         "stiffness?");
-  Negativity negative = negativity((compliance + compliance.transpose()) / 2, rounding);
+  Negativity negative = negativity((compliance + compliance.transpose()) / 2, rounding, progress);
   if (negative.share == 0 || negative.share > std::max(fewDigits, defect)) return negative;
   warnings.push_back(sentence("the compliance is not positive: its least eigenvalue is ",
                               negative.value, " m/N, -", negative.share, " of the largest"));

@@ -35,7 +35,7 @@ void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
 /// @param defect      its relative asymmetry, which eigenvalues are uncertain by.
 /// @return how negative it is, beyond rounding and defect.
 Negativity requireCompliance(const Eigen::MatrixXd& compliance, double defect,
-                             std::vector<std::string>& warnings);
+                             std::vector<std::string>& warnings, const Progress& progress);
 
 /// Young's modulus of a body whose mean displacement under a force spread over all its points is
 /// this one: 1 / (c L) with the compliance c, mean of three directions, and the size L.

@@ -31,32 +31,38 @@ std::size_t widthOf(const TextLines& lines, std::string_view format) {
       lines.wholeNumber(format.substr(letter + 1, end - letter - 1), 1, 100));
 }
 
-std::string_view withoutBlanks(std::string_view text) {
-  const std::vector<std::string_view> words = wordsOf(text);
-  return words.size() == 1 ? words[0] : std::string_view();
-}
-
-/// Numbers in columns of one width, line by line, from the next line on.
-class FixedWidth {
+/// Numbers line by line, from the next line on: between blanks, or where they are not all apart in
+/// columns of one width. (SciPy's writer states another width than it writes.)
+class FortranNumbers {
  public:
-  FixedWidth(TextLines& lines, std::size_t width) : lines_(lines), width_(width) {}
+  FortranNumbers(TextLines& lines, std::size_t width) : lines_(lines), width_(width) {}
 
   std::string_view next(const char* what) {
-    while (withoutBlanks(rest_.substr(0, width_)).empty()) {
-      if (!wordsOf(rest_).empty())
-        lines_.refuse("a number of ", what, " is not where the format says");
+    while (at_ == fields_.size()) {
       if (!lines_.next()) lines_.refuse("the file ends before its ", what);
-      rest_ = lines_.line();
+      split();
+      at_ = 0;
     }
-    const std::string_view field = withoutBlanks(rest_.substr(0, width_));
-    rest_.remove_prefix(std::min(width_, rest_.size()));
-    return field;
+    return fields_[at_++];
   }
 
  private:
+  void split() {
+    fields_ = wordsOf(lines_.line());
+    const bool isApart = std::all_of(fields_.begin(), fields_.end(), [&](std::string_view word) {
+      return word.size() <= width_ && numberOf(word);
+    });
+    if (isApart) return;
+    fields_.clear();
+    for (std::size_t at = 0; at < lines_.line().size(); at += width_) {
+      const std::vector<std::string_view> words = wordsOf(lines_.line().substr(at, width_));
+      fields_.insert(fields_.end(), words.begin(), words.end());
+    }
+  }
+
   TextLines& lines_;
-  std::size_t width_;
-  std::string_view rest_;
+  std::size_t width_, at_ = 0;
+  std::vector<std::string_view> fields_;
 };
 
 }  // namespace
@@ -96,7 +102,7 @@ GivenMatrix readHarwellBoeing(std::string_view bytes, const std::string& path) {
   if (formats.size() > 3) lines.next();  // about right-hand sides
 
   std::vector<std::int64_t> starts(std::size_t(size) + 1);
-  FixedWidth pointers(lines, widths[0]);
+  FortranNumbers pointers(lines, widths[0]);
   for (std::size_t j = 0; j < starts.size(); ++j) {
     starts[j] = lines.wholeNumber(pointers.next("columns"), 1, count + 1);
     if (j == 0 ? starts[j] != 1 : starts[j] < starts[j - 1])
@@ -104,11 +110,11 @@ GivenMatrix readHarwellBoeing(std::string_view bytes, const std::string& path) {
   }
   if (starts.back() != count + 1) lines.refuse("the last column does not end with the entries");
   std::vector<GivenMatrix::Entry> entries(count);
-  FixedWidth rows(lines, widths[1]);
+  FortranNumbers rows(lines, widths[1]);
   for (int j = 0; j < size; ++j)
     for (std::int64_t k = starts[j] - 1; k < starts[j + 1] - 1; ++k)
       entries[k] = {static_cast<int>(lines.wholeNumber(rows.next("rows"), 1, size)) - 1, j, 0};
-  FixedWidth values(lines, widths[2]);
+  FortranNumbers values(lines, widths[2]);
   for (GivenMatrix::Entry& entry : entries)
     entry = {entry.row(), entry.col(), lines.number(values.next("values"))};
   return GivenMatrix(size, std::move(entries), type == "RSA", "Harwell-Boeing", path);

@@ -148,7 +148,8 @@ Response Import::stiffnessResponse() {
                         warnings_);
   int row = -1;
   const Eigen::Index free = 3 * parts_.free.size();
-  Response response = imported::responseOfStiffness(std::move(stiffness), free, row);
+  Response response =
+      imported::responseOfStiffness(std::move(stiffness), free, row, progress_.part(0.5, 0.9));
   if (row >= 0)
     refuse("the stiffness is not positive definite (found at ", places_.nameOf(parts_.rows[row]),
            "): some deformation would cost no work");
@@ -160,8 +161,8 @@ Response Import::complianceResponse() {
   Eigen::MatrixXd compliance = matrix_.block(parts_.rows, parts_.rows);
   compliance *= options_.lengthUnit / options_.forceUnit;
   if (options_.reciprocal) compliance = ((compliance + compliance.transpose()) / 2).eval();
-  progress_.report(0.1, "check");
-  const imported::Negativity negative = imported::requireCompliance(compliance, defect_, warnings_);
+  const imported::Negativity negative =
+      imported::requireCompliance(compliance, defect_, warnings_, progress_.part(0.1, 0.6));
   if (negative.share > 0)
     refuse("the compliance has a negative eigenvalue, ", negative.value, " m/N or -",
            negative.share, " of the largest (found at ", places_.nameOf(parts_.rows[negative.row]),

@@ -9,13 +9,14 @@
 
 namespace palpate::imported {
 
-Response responseOfStiffness(Eigen::MatrixXd stiffness, Eigen::Index free, int& row) {
+Response responseOfStiffness(Eigen::MatrixXd stiffness, Eigen::Index free, int& row,
+                             const Progress& progress) {
   const Eigen::Index fixed = stiffness.rows() - free;
   Response response;
   const Eigen::MatrixXd coupling = stiffness.bottomLeftCorner(fixed, free);
   response.holding = stiffness.bottomRightCorner(fixed, fixed);
   stiffness.conservativeResize(free, free);
-  row = invertDefinite(stiffness) - 1;
+  row = invertDefinite(stiffness, progress) - 1;
   if (row >= 0) return {};
   response.compliance = std::move(stiffness);
   response.reactions = coupling * response.compliance;

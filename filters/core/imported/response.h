@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "progress.h"
+
 namespace palpate::imported {
 
 /// How free and fixed nodes answer to forces on the free and displacements of the fixed ones.
@@ -19,7 +21,9 @@ struct Response {
 /// @param free       how many rows are of free ones.
 /// @param row        set to the row at which the stiffness is not positive definite, else to -1;
 ///                   then there is no response.
-Response responseOfStiffness(Eigen::MatrixXd stiffness, Eigen::Index free, int& row);
+/// @throws Aborted.
+Response responseOfStiffness(Eigen::MatrixXd stiffness, Eigen::Index free, int& row,
+                             const Progress& progress);
 
 /// @param compliance  likewise.
 /// @param symmetric   whether it is.

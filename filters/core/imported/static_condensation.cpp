@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linear_algebra/dense_cholesky.h"
 #include "linear_algebra/lapack.h"
 #include "linear_algebra/sparse_factorization.h"
 #include "sentence.h"
@@ -39,15 +40,14 @@ Eigen::MatrixXd condensedDense(const GivenMatrix& matrix, const std::vector<int>
   const Eigen::VectorXd scale = own.diagonal().cwiseSqrt().cwiseInverse();
   own = scale.asDiagonal() * own * scale.asDiagonal();
   coupling = scale.asDiagonal() * coupling;
-  progress.report(0.2, "condense");
-  if (const int row = lapack::potrf(size, own.data(), size)) refuseLoose(places, inner[row - 1]);
+  if (const int row = factorCholesky(own.data(), size, progress.part(0.1, 0.5)))
+    refuseLoose(places, inner[row - 1]);
   for (int i = 0; i < size; ++i)
     if (!(own(i, i) * own(i, i) > size * std::numeric_limits<double>::epsilon()))
       refuseLoose(places, inner[i]);
-  progress.report(0.5, "condense");
-  lapack::trsmLower(size, keptSize, own.data(), size, coupling.data(), size);
+  lapack::trsmLower(false, size, keptSize, own.data(), size, coupling.data(), size);
   progress.report(0.8, "condense");
-  lapack::subtractSquare(keptSize, size, coupling.data(), size, stiffness.data(), keptSize);
+  lapack::subtractSquare(true, keptSize, size, coupling.data(), size, stiffness.data(), keptSize);
   stiffness.triangularView<Eigen::StrictlyUpper>() = stiffness.transpose();
   return stiffness;
 }

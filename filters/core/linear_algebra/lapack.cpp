@@ -12,7 +12,6 @@ void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
 void sgetrf_(const int*, const int*, float*, const int*, int*, int*);
 void dgetri_(const int*, double*, const int*, const int*, double*, const int*, int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*, std::size_t);
-void dpotri_(const char*, const int*, double*, const int*, int*, std::size_t);
 void dlaswp_(const int*, double*, const int*, const int*, const int*, const int*, const int*);
 void slaswp_(const int*, float*, const int*, const int*, const int*, const int*, const int*);
 void dgecon_(const char*, const int*, const double*, const int*, const double*, double*, double*,
@@ -46,19 +45,19 @@ int potrf(int n, double* a, int lda) {
   return info;
 }
 
-int potri(int n, double* l, int lda) {
-  int info = 0;
-  dpotri_("L", &n, l, &lda, &info, 1);
-  return info;
+void trsmLower(bool transposed, int m, int n, const double* l, int ldl, double* b, int ldb) {
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed ? CblasTrans : CblasNoTrans,
+              CblasNonUnit, m, n, 1, l, ldl, b, ldb);
 }
 
-void trsmLower(int m, int n, const double* l, int ldl, double* b, int ldb) {
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, m, n, 1, l, ldl, b,
+void trsmLowerRight(int m, int n, const double* l, int ldl, double* b, int ldb) {
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, m, n, 1, l, ldl, b,
               ldb);
 }
 
-void subtractSquare(int n, int k, const double* a, int lda, double* c, int ldc) {
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, k, -1, a, lda, 1, c, ldc);
+void subtractSquare(bool transposed, int n, int k, const double* a, int lda, double* c, int ldc) {
+  cblas_dsyrk(CblasColMajor, CblasLower, transposed ? CblasTrans : CblasNoTrans, n, k, -1, a, lda,
+              1, c, ldc);
 }
 
 void laswp(int n, double* a, int lda, int first, int last, const int* pivots) {

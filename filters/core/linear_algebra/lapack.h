@@ -21,14 +21,16 @@ int getri(int n, double* lu, int ldlu, const int* pivots, double* work, int work
 /// @return 0, or the order, from 1, of the first leading minor that is not positive.
 int potrf(int n, double* a, int lda);
 
-/// The lower triangle of the inverse of a matrix that potrf factored.
-int potri(int n, double* l, int lda);
+/// B := L^-1 B or L^-T B, for the lower triangle of an m by m matrix, its diagonal included, and m
+/// by n B.
+void trsmLower(bool transposed, int m, int n, const double* l, int ldl, double* b, int ldb);
 
-/// B := L^-1 B for the lower triangle of an m by m matrix, its diagonal included, and m by n B.
-void trsmLower(int m, int n, const double* l, int ldl, double* b, int ldb);
+/// B := B L^-T for such a triangle of an n by n matrix.
+void trsmLowerRight(int m, int n, const double* l, int ldl, double* b, int ldb);
 
-/// C := C - A^T A in the lower triangle, for k by n A.
-void subtractSquare(int n, int k, const double* a, int lda, double* c, int ldc);
+/// C := C - A^T A in the lower triangle of an n by n matrix, for k by n A, or C - A A^T for n by k
+/// A.
+void subtractSquare(bool transposed, int n, int k, const double* a, int lda, double* c, int ldc);
 
 /// Applies the row interchanges first..last (from 1) of `pivots` to n columns.
 void laswp(int n, double* a, int lda, int first, int last, const int* pivots);
