@@ -93,9 +93,10 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
 
 void addOptions(CLI::App& command, Options& o) {
   command
-      .add_option("input", o.input,
-                  "A triangle surface: closed; flat for a half-space below it; any for a shell, whose "
-                  "middle it is; for fem also a volume mesh of tetrahedra, .vtu or .vtk")
+      .add_option(
+          "input", o.input,
+          "A triangle surface: closed; flat for a half-space below it; any for a shell, whose "
+          "middle it is; for fem also a volume mesh of tetrahedra, .vtu or .vtk")
       ->required();
   requireWritable(
       command
@@ -161,7 +162,7 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--integration-tolerance", "bem"},
                                    {"--solver", "bem"},
                                    {"--support-patch", "bem"},
-                                   {"--no-estimate", "bem"},
+                                   {"--no-estimate", "bem fem"},
                                    {"--collocation", "bem"},
                                    {"--domain", "bem"},
                                    {"--smooth-angle", "bem fem"},
@@ -197,6 +198,7 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> finiteElements(const Options& o) {
   auto filter = vtkSmartPointer<vtkFiniteElementGreensFunctions>::New();
   filter->SetElement(o.element == "quadratic");
   filter->SetCellSize(o.cellSize);
+  filter->SetEstimateError(!o.noEstimate);
   filter->SetReciprocal(!o.raw);
   filter->SetSmoothAngle(o.smoothAngle);
   filter->SetPatchColumns(o.patchColumns);

@@ -108,7 +108,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         End the support's traction at its rim and not half an edge beyond, which is several times more
         accurate near it. By default with a `tolerance` only.
     estimate_error : bool
-        Estimate the error on a coarser mesh, or for small surfaces on a finer one: the field arrays
+        Of boundary and finite elements: estimate the error on a coarser mesh, or for small surfaces on
+        a finer one (filled anew, but not with several materials): the field arrays
         `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails.
     max_levels, max_vertices : int, optional
         How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
@@ -232,7 +233,7 @@ def boundary_of(grid):
 
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
-    "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
+    "estimate_error": ("bem", "fem"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
     "thickness": ("shell",), "clamped": ("shell",),
 }
 
@@ -262,7 +263,7 @@ def set_thickness(greens, surface, thickness):
     surface.GetCellData().RemoveArray(THICKNESS)
 
 
-def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, **_):
+def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, estimate_error, **_):
     """The filter of finite elements, but for its surface and columns."""
     filter = vtkFiniteElementGreensFunctions()
     if volume is not None:
@@ -271,6 +272,7 @@ def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, **_
         filter.SetInputData(1, volume)
     filter.SetElement(choice(element, {"linear": 0, "quadratic": 1}, "element"))
     filter.SetCellSize(number(cell_size, "cell_size"))
+    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
     filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     filter.SetPatchColumns(flag(patch_columns, "patch_columns"))
     return filter

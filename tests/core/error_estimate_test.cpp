@@ -3,7 +3,7 @@
 
 // What is estimated against what is true: closed forms, and answers of much finer meshes.
 
-#include "bem/error_estimate.h"
+#include "greens/error_estimate.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bem/error_estimate.h"
+#include "greens/error_estimate.h"
 #include "mesh/loop_subdivision.h"
 #include "mesh/smooth_patches.h"
 #include "model/support.h"

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "bem/body_surface.h"
-#include "bem/error_estimate.h"
 #include "bem/exchanged_system.h"
 #include "greens/dense_greens_functions.h"
 #include "greens/reciprocity.h"
@@ -288,6 +287,22 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
 
 }  // namespace
 
+EstimatedMethod estimatedMethod(const BoundaryElementOptions& options) {
+  BoundaryElementOptions all;
+  all.collocation = options.collocation;
+  all.tolerance = options.tolerance;
+  all.reciprocal = options.reciprocal;
+  all.threads = options.threads;
+  const auto solve = [all](const ElasticModel& model, const Progress& progress) {
+    const auto report = [&](double fraction, const char*) {
+      progress.report(fraction, "estimate");
+      return true;
+    };
+    return computeBoundaryElementGreensFunctions(model, all, report).take();
+  };
+  return {solve, true};
+}
+
 ComputedGreensFunctions computeBoundaryElementGreensFunctions(const ElasticModel& model,
                                                               const BoundaryElementOptions& options,
                                                               const ProgressCallback& progress) {
@@ -316,8 +331,8 @@ ComputedGreensFunctions computeBoundaryElementGreensFunctions(const ElasticModel
   }
   if (options.estimateError) {
     Stopwatch watch;
-    info.diagnostics.error =
-        estimateError(model, options, *result.view(), whole.part(1 - kEstimateShare, 1));
+    info.diagnostics.error = estimateError(model, estimatedMethod(options), *result.view(),
+                                           whole.part(1 - kEstimateShare, 1));
     addSeconds(info.diagnostics, "estimate", watch.seconds());
   }
   whole.report(1, "done");

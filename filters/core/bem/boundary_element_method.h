@@ -7,6 +7,7 @@
 
 #include "bem/collocation.h"
 #include "greens/computed_greens_functions.h"
+#include "greens/error_estimate.h"
 #include "model/elastic_model.h"
 #include "progress.h"
 
@@ -53,5 +54,8 @@ struct BoundaryElementOptions {
 ComputedGreensFunctions computeBoundaryElementGreensFunctions(
     const ElasticModel& model, const BoundaryElementOptions& options = {},
     const ProgressCallback& progress = {});
+
+/// The same method for another mesh, to estimate errors by.
+EstimatedMethod estimatedMethod(const BoundaryElementOptions& options);
 
 }  // namespace palpate

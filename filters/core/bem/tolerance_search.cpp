@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bem/error_estimate.h"
+#include "greens/error_estimate.h"
 #include "greens/load_differences.h"
 
 namespace palpate {
@@ -136,7 +136,8 @@ class Search {
     if (!isSmall && level > 0 && levels_[level - 1].vertices() >= kLeastVertices)
       return estimateByCoarser(level);
     const Level& own = levels_[level];
-    return estimateError(own.model, options_, *own.result.view(), progress_.part(done_, done_));
+    return estimateError(own.model, estimatedMethod(options_), *own.result.view(),
+                         progress_.part(done_, done_));
   }
 
   ErrorEstimate estimateByFiner(int level) {

@@ -10,7 +10,10 @@
 
 #include "fem/solid_system.h"
 #include "fem/surface_response.h"
+#include "greens/error_estimate.h"
 #include "greens/reciprocity.h"
+#include "mesh/surface_locator.h"
+#include "mesh/tetrahedralization.h"
 #include "stopwatch.h"
 
 namespace palpate {
@@ -78,6 +81,45 @@ AlignedBuffer<double> taken(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   return buffer;
 }
 
+constexpr double kEstimateShare = 0.3;
+
+/// The model whose triangles are those of what its surface was filled with.
+ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& filled) {
+  if (filled.newBoundaryPoints > 0)
+    throw std::runtime_error("filling the surface took new vertices on it");
+  if (filled.lostTriangles == 0) return model;
+  const SurfaceLocator locator(model.sharedMesh());
+  const auto mesh =
+      std::make_shared<const SurfaceMesh>(model.mesh().points(), filled.mesh.boundary());
+  Eigen::VectorXi patches(mesh->triangleCount());
+  for (int f = 0; f < patches.size(); ++f) {
+    const Eigen::Vector3d middle =
+        mesh->points()(Eigen::all, mesh->triangles().col(f)).rowwise().mean();
+    patches[f] = model.smoothPatches()[locator.nearest(middle).triangle];
+  }
+  return ElasticModel(mesh, model.material(), model.conditions(), std::move(patches));
+}
+
+/// The same method for another mesh, filled with the same material.
+EstimatedMethod estimatedMethod(const FiniteElementOptions& options, const Elasticity& material) {
+  FiniteElementOptions all;
+  all.element = options.element;
+  all.reciprocal = options.reciprocal;
+  const auto solve = [all, material](const ElasticModel& model, const Progress& progress) {
+    progress.report(0, "estimate");
+    const Tetrahedralization filled = tetrahedralize(model.mesh());
+    const ElasticModel onIt = onBoundary(model, filled);
+    const auto report = [&](double fraction, const char*) {
+      progress.report(0.5 + fraction / 2, "estimate");
+      return true;
+    };
+    return computeFiniteElementGreensFunctions(
+               onIt, SolidBody(onIt.mesh(), filled.mesh, {material}), all, report)
+        .take();
+  };
+  return {solve, false};
+}
+
 }  // namespace
 
 ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& model,
@@ -86,7 +128,8 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
                                                             const ProgressCallback& callback) {
   if (model.domain() != Domain::Interior)
     throw std::invalid_argument("finite elements fill the inside of a surface, no other domain");
-  const Progress progress(callback);
+  const Progress whole(callback);
+  const Progress progress = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
   ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
@@ -125,7 +168,12 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
                      options.reciprocal);
   info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
   addSeconds(info.diagnostics, "check", watch.seconds());
-  progress.report(1, "done");
+  if (options.estimateError && body.materialCount() == 1) {
+    info.diagnostics.error = estimateError(model, estimatedMethod(options, body.material(0)),
+                                           *result.view(), whole.part(1 - kEstimateShare, 1));
+    addSeconds(info.diagnostics, "estimate", watch.seconds());
+  }
+  whole.report(1, "done");
   return result;
 }
 

@@ -22,6 +22,9 @@ struct FiniteElementOptions {
   /// Loads and displacements conjugate to each other, so that the compliance is symmetric; else
   /// each as exact as can be.
   bool reciprocal = true;
+  /// Also estimate the error on another mesh of the model, filled anew (see estimateError); unknown
+  /// for bodies of several materials.
+  bool estimateError = false;
 };
 
 /// Computes the discrete Green's functions of a solid body by finite elements: displacements linear

@@ -29,7 +29,8 @@ void vtkFiniteElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Element: " << this->Element << "\n"
-     << indent << "CellSize: " << this->CellSize << "\n";
+     << indent << "CellSize: " << this->CellSize << "\n"
+     << indent << "EstimateError: " << this->EstimateError << "\n";
 }
 
 int vtkFiniteElementGreensFunctions::FillInputPortInformation(int port, vtkInformation* info)
@@ -54,6 +55,7 @@ void vtkFiniteElementGreensFunctions::Compute(
   options.element = static_cast<palpate::SolidElement>(this->Element);
   options.patchColumns = this->PatchColumns;
   options.reciprocal = this->Reciprocal;
+  options.estimateError = this->EstimateError;
   const palpate::Progress progress([this](double fraction, const char* stage)
     { return this->ReportProgress(fraction, stage); });
   const auto compute = [&](const palpate::ElasticModel& model, const palpate::SolidBody& body,

@@ -66,6 +66,16 @@ public:
   vtkGetMacro(CellSize, double);
   ///@}
 
+  ///@{
+  /**
+   * Estimate the relative error (palpate::estimateError) on a coarser mesh, or below 200 vertices on a
+   * finer one, that is filled anew; not for bodies of several materials. Default on.
+   */
+  vtkSetMacro(EstimateError, bool);
+  vtkGetMacro(EstimateError, bool);
+  vtkBooleanMacro(EstimateError, bool);
+  ///@}
+
 protected:
   vtkFiniteElementGreensFunctions();
   ~vtkFiniteElementGreensFunctions() override = default;
@@ -78,6 +88,7 @@ private:
 
   int Element = QUADRATIC;
   double CellSize = 0;
+  bool EstimateError = true;
   vtkSmartPointer<vtkPolyData> Filled; // the surface that what is kept belongs to
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "bem/error_estimate.h"
+#include "greens/error_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,26 +49,11 @@ std::optional<OtherMesh> otherMesh(const ElasticModel& model, Eigen::Matrix3Xd p
   }
 }
 
-std::shared_ptr<const GreensFunctions> solve(const ElasticModel& model,
-                                             const BoundaryElementOptions& options,
-                                             const Progress& progress) {
-  BoundaryElementOptions all;
-  all.collocation = options.collocation;
-  all.tolerance = options.tolerance;
-  all.reciprocal = options.reciprocal;
-  all.threads = options.threads;
-  const auto report = [&](double fraction, const char*) {
-    progress.report(fraction, "estimate");
-    return true;
-  };
-  return computeBoundaryElementGreensFunctions(model, all, report).take();
-}
-
 void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
-                       const BoundaryElementOptions& options, const GreensFunctions& greens,
+                       const EstimatedMethod& method, const GreensFunctions& greens,
                        const Progress& progress, ErrorEstimate& estimate) {
   const double order = discretizationOrder(greens), gain = std::pow(coarser.ratio, order);
-  const auto coarse = solve(coarser.model, options, progress.part(0, 0.5));
+  const auto coarse = method.solve(coarser.model, progress.part(0, 0.5));
   const SurfaceMesh& mesh = coarser.model.mesh();
   SpreadLoads loads = errorLoads(coarser.model);
   const LoadDifferences differences =
@@ -76,7 +61,7 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
   if (!differences.field.empty()) {
     addDiscretization(differences, 1 / (gain - 1), loads.length, estimate);
   } else if (const auto third = coarsenedModel(coarser.model, kLeastOfThird)) {
-    const auto coarsest = solve(third->model, options, progress.part(0.8, 1));
+    const auto coarsest = method.solve(third->model, progress.part(0.8, 1));
     const double factor = 1 / (std::pow(third->ratio, order) - 1) / gain;
     loads = errorLoads(third->model);
     addDiscretization(
@@ -84,21 +69,21 @@ void estimateByCoarser(const ElasticModel& model, const OtherMesh& coarser,
         factor, loads.length, estimate);
     for (int& vertex : loads.vertices) vertex = third->vertices[vertex];
   }
-  if (estimate.discretization < 0 || !hasBluntSupport(model)) return;
-  const auto sharp = solve(withSupportPatch(coarser.model), options, progress.part(0.5, 0.8));
+  if (estimate.discretization < 0 || !method.bluntSupports || !hasBluntSupport(model)) return;
+  const auto sharp = method.solve(withSupportPatch(coarser.model), progress.part(0.5, 0.8));
   addDiscretization(compareUnderLoads(*sharp, mesh, *coarse, mesh, loads), 1 / coarser.ratio,
                     loads.length, estimate);
 }
 
 void estimateByFiner(const ElasticModel& model, const OtherMesh& finer,
-                     const BoundaryElementOptions& options, const GreensFunctions& greens,
+                     const EstimatedMethod& method, const GreensFunctions& greens,
                      const Progress& progress, ErrorEstimate& estimate) {
-  const bool isBlunt = hasBluntSupport(model);
-  const auto fine = solve(isBlunt ? withSupportPatch(finer.model) : finer.model, options, progress);
+  const bool isBlunt = method.bluntSupports && hasBluntSupport(model);
+  const auto fine = method.solve(isBlunt ? withSupportPatch(finer.model) : finer.model, progress);
   const std::vector<int> free = model.conditions().freeNodes();
   const bool isWhole =
       std::all_of(free.begin(), free.end(), [&](int node) { return greens.hasColumn(node); });
-  const auto whole = isWhole ? nullptr : solve(model, options, progress.part(1, 1));
+  const auto whole = isWhole ? nullptr : method.solve(model, progress.part(1, 1));
   const double gain = std::pow(finer.ratio, discretizationOrder(*fine));
   const SpreadLoads loads = errorLoads(model);
   addDiscretization(
@@ -162,7 +147,7 @@ std::optional<OtherMesh> coarsenedModel(const ElasticModel& model, int leastVert
   return coarser;
 }
 
-ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOptions& options,
+ErrorEstimate estimateError(const ElasticModel& model, const EstimatedMethod& method,
                             const GreensFunctions& greens, const Progress& progress) {
   ErrorEstimate estimate = otherErrors(greens);
   const auto attempt = [&](const auto& by) {
@@ -178,12 +163,12 @@ ErrorEstimate estimateError(const ElasticModel& model, const BoundaryElementOpti
   };
   attempt([&](ErrorEstimate& attempted) {
     if (const auto coarser = coarsenedModel(model, kLeastVertices))
-      estimateByCoarser(model, *coarser, options, greens, progress, attempted);
+      estimateByCoarser(model, *coarser, method, greens, progress, attempted);
   });
   if (estimate.discretization >= 0 || model.mesh().vertexCount() > kMostRefined) return estimate;
   attempt([&](ErrorEstimate& attempted) {
     if (const auto finer = refinedModel(model))
-      estimateByFiner(model, *finer, options, greens, progress, attempted);
+      estimateByFiner(model, *finer, method, greens, progress, attempted);
   });
   return estimate;
 }
