@@ -73,8 +73,9 @@ void printProblem(vtkPolyData* surface) {
     const double value = fieldNumber(surface, name, -1);
     if (surface->GetFieldData()->HasArray(name) && value != -1) printRow(label, number(value));
   };
-  printField("YoungsModulus", "Young's modulus, Pa");
-  printField("PoissonRatio", "Poisson's ratio");
+  const bool isGiven = convert::fieldString(surface, "GreensFunctionDomain") == "given";
+  printField("YoungsModulus", isGiven ? "Young's modulus for it, Pa" : "Young's modulus, Pa");
+  if (!isGiven) printField("PoissonRatio", "Poisson's ratio");
   if (vtkDataArray* nodes = surface->GetFieldData()->GetArray("GreensFunctionNodes"))
     printRow("Green's functions of", std::to_string(nodes->GetNumberOfTuples()) + " vertices");
   for (const std::string& source : fieldStrings(surface, "GreensFunctionSource"))

@@ -258,10 +258,11 @@ TEST(MatrixFile, PathsThatAreNoFilesAreRefused) {
 }
 
 /// Whether a text is read, or refused in a sentence. Anything else ends the test's process.
-bool isRead(const std::string& text) {
+template <class Read>
+bool isReadBy(const Read& read, const std::string& text) {
   const TemporaryPath file(text);
   try {
-    readMatrixFile(file.path());
+    read(file.path());
     return true;
   } catch (const std::invalid_argument& refusal) {
     EXPECT_TRUE(std::strlen(refusal.what()) > 10 && !std::strchr(refusal.what(), '\n'));
@@ -269,6 +270,22 @@ bool isRead(const std::string& text) {
     EXPECT_TRUE(contains(refusal.what(), "is empty"));
   }
   return false;
+}
+
+bool isRead(const std::string& text) {
+  return isReadBy([](const std::string& path) { readMatrixFile(path); }, text);
+}
+
+/// One to four bytes made others, every second time such as mean something.
+std::string changed(const std::string& text, int trial, std::mt19937& random) {
+  const std::string telling =
+      "0123456789 ,;.*+-$%\n\0\xff"
+      "eE'()";
+  std::string result = text;
+  for (int count = 1 + trial % 4; count > 0; --count)
+    result[random() % result.size()] =
+        trial % 2 ? telling[random() % telling.size()] : static_cast<char>(random());
+  return result;
 }
 
 TEST(MatrixFile, FilesThatEndAnywhereAreReadOrRefused) {
@@ -284,17 +301,18 @@ TEST(MatrixFile, FilesThatEndAnywhereAreReadOrRefused) {
 
 TEST(MatrixFile, ChangedBytesAreReadOrRefused) {
   std::mt19937 random(5);
-  const std::string telling =
-      "0123456789 ,;.*+-$%\n\0\xff"
-      "eE'()";
   for (const auto& [format, text] : allFormats())
-    for (int trial = 0; trial < 3000; ++trial) {
-      std::string changed = text;
-      for (int count = 1 + trial % 4; count > 0; --count)
-        changed[random() % changed.size()] =
-            trial % 2 ? telling[random() % telling.size()] : static_cast<char>(random());
-      isRead(changed);
-    }
+    for (int trial = 0; trial < 3000; ++trial) isRead(changed(text, trial, random));
+  const auto nodes = [](const std::string& path) { readNodeFile(path); };
+  const auto mapping = [](const std::string& path) {
+    imported::readMapping(imported::readBytes(path), 3, path);
+  };
+  for (int trial = 0; trial < 3000; ++trial) {
+    isReadBy(mapping, changed(kMapping, trial, random));
+    for (const std::string& text :
+         {std::string("12 1 2 3\n7 4 5.5 -6\n"), std::string(kDmig), npyMatrix()})
+      isReadBy(nodes, changed(text, trial, random));
+  }
 }
 
 TEST(MatrixFile, NumbersInAnyNotationAndLocale) {

@@ -14,7 +14,13 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_vtk
-from support.matrices import dmig_text, harwell_boeing_text, mapping_text, truss
+from support.matrices import (
+    dmig_text,
+    harwell_boeing_text,
+    mapping_text,
+    market_text,
+    truss,
+)
 from support.refused import Refusals
 from support.surfaces import (
     PROGRAM,
@@ -282,13 +288,13 @@ class Program(Folder):
         stiffness, surface, points = truss()
         palpate.write(surface, self.surface)
         (self.folder / "k.pch").write_text(dmig_text(stiffness, 1e3 * points))
+        (self.folder / "k.mtx").write_text(market_text(stiffness))
         (self.folder / "k.matrix").write_text(harwell_boeing_text(stiffness))
         (self.folder / "k.mapping").write_text(mapping_text(21))
         np.savetxt(self.folder / "nodes.txt", np.column_stack([np.arange(1, 8), 1e3 * points]))
         files = {}
-        for name, options in (("k.pch", ()),
-                              ("k.matrix", ("--mapping", self.folder / "k.mapping", "--nodes",
-                                            self.folder / "nodes.txt"))):
+        numbered = ("--mapping", self.folder / "k.mapping", "--nodes", self.folder / "nodes.txt")
+        for name, options in (("k.pch", ()), ("k.matrix", numbered), ("k.mtx", numbered)):
             made = run("import", self.surface, self.model, "--stiffness", self.folder / name,
                        "--length-unit", "mm", "--force-unit", "kN", "--fix-half-space", 0, 0, 0.5, 0, 0, 1,
                        *options)

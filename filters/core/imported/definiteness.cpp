@@ -103,6 +103,7 @@ RigidMotions rigidMotions(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3
       weighted.matrixV().leftCols(rank) *
       values.head(rank).cwiseInverse().cwiseProduct(work.eigenvectors().col(0));
   mixture.normalize();
+  mixture = (mixture.array().abs() < leastOfLargest).select(0, mixture);
   return {work.eigenvalues(), {work.eigenvalues()[0], mixture.head<3>(), mixture.tail<3>()}};
 }
 
