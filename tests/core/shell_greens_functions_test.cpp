@@ -10,6 +10,7 @@
 
 #include "contact/capacitance_solver.h"
 #include "greens/gravity.h"
+#include "shell/shell_curvature.h"
 #include "shell/shell_element.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"
@@ -93,13 +94,15 @@ TEST(ShellGreensFunctions, RigidMotionsOfTheSupportMoveAllRigidly) {
 Eigen::MatrixXd denseSolution(const ShellProblem& problem) {
   const SurfaceMesh& mesh = problem.mesh();
   const int n = mesh.vertexCount();
+  const Eigen::VectorXd inclined = shell::inclinations(mesh);
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(6 * n, 6 * n);
   for (int f = 0; f < mesh.triangleCount(); ++f) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = mesh.points().col(mesh.triangles()(k, f));
-    const shell::Matrix18d own = problem.model.material().youngsModulus() *
-                                 shell::shellStiffness(corners, problem.shell.thickness().col(f),
-                                                       problem.model.material().poissonRatio());
+    const shell::Matrix18d own =
+        problem.model.material().youngsModulus() *
+        shell::shellStiffness(corners, problem.shell.thickness().col(f),
+                              problem.model.material().poissonRatio(), inclined[f]);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         whole.block<6, 6>(6 * mesh.triangles()(i, f), 6 * mesh.triangles()(j, f)) +=

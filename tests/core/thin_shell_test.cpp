@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "shell/shell_curvature.h"
 #include "shell/shell_warnings.h"
 #include "support/refusals.h"
 #include "support/thin_shells.h"
@@ -156,6 +157,15 @@ TEST(ThinShell, FingerprintKnowsThicknessSupportAndDomain) {
   const ElasticModel stiffer = shellModel(shape, leftEdge, {0.1, 0.3, 5});
   EXPECT_EQ(ThinShell(stiffer, thickness, true).fingerprint(stiffer),
             ThinShell(model, thickness, true).fingerprint(model));
+}
+
+TEST(Inclinations, AreThoseOfChordsAndNotOfFolds) {
+  const auto pipe = sheetOf(30, [](double a, double b) {
+                      return Eigen::Vector3d(2 * std::sin(3 * a), 2 * std::cos(3 * a), b);
+                    }).sheet();
+  EXPECT_LT((shell::inclinations(*pipe).array() / 0.1 - 1).abs().maxCoeff(), 1e-9);
+  EXPECT_LT(shell::inclinations(*jitteredPlate(1, 8, 0.3).sheet()).maxCoeff(), 1e-7);
+  EXPECT_LT(shell::inclinations(*box({1, 1, 1}, {2, 2, 2}).sheet()).maxCoeff(), 1e-7);
 }
 
 TEST(MeanCurvature, OfSpheresCylindersAndPlates) {

@@ -83,7 +83,12 @@ Eigen::Matrix3d elongations(const Triangle& t, int corner) {
 
 }  // namespace
 
-Matrix9d membraneStiffness(const Corners2d& corners, const Eigen::Matrix3d& plane, double nu) {
+double optimalHigherOrder(double nu) {
+  return std::max((1 - 4 * nu * nu) / 2, kLeastHigherOrder);
+}
+
+Matrix9d membraneStiffness(const Corners2d& corners, const Eigen::Matrix3d& plane,
+                           double higherOrder) {
   const Triangle t(corners);
   const Eigen::Matrix<double, 9, 3> forces = lumpedForces(t) / 2;
   const Eigen::Matrix3d toStrains = fromNatural(t);
@@ -94,10 +99,9 @@ Matrix9d membraneStiffness(const Corners2d& corners, const Eigen::Matrix3d& plan
         (elongations(t, corner) + elongations(t, (corner + 1) % 3)) / 2;  // of a side
     ofRotations += t.area * middle.transpose() * natural * middle;
   }
-  const double share = 0.75 * std::max((1 - 4 * nu * nu) / 2, kLeastHigherOrder);
   const Eigen::Matrix<double, 3, 9> rotations = deviation(t);
   const Matrix9d stiffness = forces * plane * forces.transpose() / t.area +
-                             share * rotations.transpose() * ofRotations * rotations;
+                             0.75 * higherOrder * rotations.transpose() * ofRotations * rotations;
   return (stiffness + stiffness.transpose()) / 2;
 }
 

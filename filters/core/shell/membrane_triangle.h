@@ -19,13 +19,17 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 /// numbers of eq. 42. The first part is exact for constant strain; the second answers to the
 /// rotations' deviation from the one that goes with it, and makes the energy of in-plane bending of
 /// a rectangle of two triangles that of a beam, at any aspect ratio.
-/// @param corners  counter-clockwise, m.
-/// @param plane    E, plane stress: of (xx, yy, 2 xy), Pa, times the thickness, N/m.
-/// @param nu       Poisson's ratio; beta_0 = (1 - 4 nu^2) / 2, at least kLeastHigherOrder.
+/// @param corners      counter-clockwise, m.
+/// @param plane        E, plane stress: of (xx, yy, 2 xy), Pa, times the thickness, N/m.
+/// @param higherOrder  beta_0 > 0, optimalHigherOrder for the paper's triangle.
 /// @return of (u_x, u_y, theta_z) of corner 0, then 1, then 2; symmetric, of rank six.
-Matrix9d membraneStiffness(const Corners2d& corners, const Eigen::Matrix3d& plane, double nu);
+Matrix9d membraneStiffness(const Corners2d& corners, const Eigen::Matrix3d& plane,
+                           double higherOrder);
 
 /// The least beta_0, which keeps the rank at nu = 0.5 and -0.5, where the formula gives none.
 constexpr double kLeastHigherOrder = 0.01;
+
+/// (1 - 4 nu^2) / 2, eq. 42, or the least.
+double optimalHigherOrder(double nu);
 
 }  // namespace palpate::shell

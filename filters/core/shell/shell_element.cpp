@@ -3,6 +3,7 @@
 
 #include "shell/shell_element.h"
 
+#include <algorithm>
 #include <Eigen/Geometry>
 
 #include "shell/membrane_triangle.h"
@@ -43,6 +44,16 @@ double meanCube(const Eigen::Vector3d& t) {
   return sum / 10;
 }
 
+/// beta_0, see shellStiffness.
+double higherOrder(const Corners2d& flat, const Eigen::Vector3d& thickness, double nu,
+                   double inclination) {
+  const double optimal = optimalHigherOrder(nu);
+  const double twiceArea = flat(0, 1) * flat(1, 2);  // corner 1 is on the first axis
+  const double t = mean(thickness), rise = inclination * inclination * twiceArea;
+  if (t * t >= 10 * optimal * rise) return optimal;
+  return std::max(t * t / (10 * rise), kLeastHigherOrder);
+}
+
 }  // namespace
 
 Eigen::Matrix3d planeStress(double nu) {
@@ -52,12 +63,14 @@ Eigen::Matrix3d planeStress(double nu) {
 }
 
 Matrix18d shellStiffness(const Eigen::Matrix3d& corners, const Eigen::Vector3d& thickness,
-                         double nu) {
+                         double nu, double inclination) {
   const Eigen::Matrix3d axes = axesOf(corners);
   const Corners2d flat = axes.topRows<2>() * (corners.colwise() - corners.col(0));
   const Eigen::Matrix3d plane = planeStress(nu);
   Matrix18d local = Matrix18d::Zero();
-  addPart(membraneStiffness(flat, mean(thickness) * plane, nu), kMembrane, local);
+  addPart(membraneStiffness(flat, mean(thickness) * plane,
+                            higherOrder(flat, thickness, nu, inclination)),
+          kMembrane, local);
   addPart(plateStiffness(flat, meanCube(thickness) / 12 * plane), kPlate, local);
 
   Matrix18d turned;

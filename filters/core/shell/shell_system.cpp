@@ -3,6 +3,7 @@
 
 #include "shell/shell_system.h"
 
+#include "shell/shell_curvature.h"
 #include "shell/shell_element.h"
 
 namespace palpate::shell {
@@ -15,6 +16,7 @@ ShellSystem::ShellSystem(const ElasticModel& model, const ThinShell& shell)
     for (int k = 0; k < 6; ++k) place(k, v) = shell.held()(k, v) ? -1 - held++ : free++;
 
   entries.size = free;
+  const Eigen::VectorXd inclined = inclinations(mesh);
   std::vector<Eigen::Triplet<double>> ofHeldFree, ofHeldHeld;
   for (int f = 0; f < mesh.triangleCount(); ++f) {
     Eigen::Matrix3d corners;
@@ -24,8 +26,8 @@ ShellSystem::ShellSystem(const ElasticModel& model, const ThinShell& shell)
       corners.col(k) = mesh.points().col(v) / length;
       places.segment<6>(6 * k) = place.col(v);
     }
-    const Matrix18d stiffness =
-        shellStiffness(corners, shell.thickness().col(f) / length, model.material().poissonRatio());
+    const Matrix18d stiffness = shellStiffness(corners, shell.thickness().col(f) / length,
+                                               model.material().poissonRatio(), inclined[f]);
     for (int i = 0; i < 18; ++i)
       for (int j = 0; j < 18; ++j) {
         const int row = places[i], column = places[j];

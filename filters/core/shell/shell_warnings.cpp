@@ -6,18 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <limits>
-#include <map>
 #include <sstream>
-#include <utility>
 
 #include "sentence.h"
+#include "shell/shell_curvature.h"
 
 namespace palpate::shell {
 namespace {
 
 constexpr double kThickFrom = 0.2;      // of the piece's width, or the radius of curvature
-constexpr double kFold = 0.5236;        // 30 degrees
 constexpr double kRoundingFrom = 1e-4;  // of a rigid motion
 constexpr double kNarrowBelow = 1.5;    // edges
 
@@ -104,40 +101,6 @@ void warnOfCurvature(const ElasticModel& model, const ThinShell& shell,
 }
 
 }  // namespace
-
-Eigen::VectorXd meanCurvatures(const SurfaceMesh& mesh) {
-  std::map<std::pair<int, int>, int> firstOf;
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(mesh.vertexCount());
-  std::vector<bool> isFolded(mesh.vertexCount(), false);
-  for (int f = 0; f < mesh.triangleCount(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles()(k, f), mesh.triangles()((k + 1) % 3, f)});
-      const auto [entry, isNew] = firstOf.insert({{low, high}, f});
-      if (isNew) continue;
-      const int g = entry->second;
-      const Eigen::Vector3d n = mesh.triangleNormals().col(f), m = mesh.triangleNormals().col(g);
-      const Eigen::Vector3d edge = mesh.points().col(high) - mesh.points().col(low);
-      const Eigen::Vector3d apart =
-          mesh.points().col(mesh.triangles()((k + 2) % 3, f)) - mesh.points().col(low);
-      const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
-      const double signedAngle = m.dot(apart) > 0 ? -angle : angle;
-      for (int v : {low, high}) {
-        sums[v] += signedAngle * edge.norm() / 4;
-        if (angle > kFold) isFolded[v] = true;
-      }
-    }
-  Eigen::VectorXd curvatures = Eigen::VectorXd::Zero(mesh.triangleCount());
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    double sum = 0, area = 0;
-    for (int v : mesh.triangles().col(f)) {
-      sum += isFolded[v] ? std::numeric_limits<double>::quiet_NaN() : sums[v];
-      area += mesh.vertexAreas()[v];
-    }
-    if (std::isfinite(sum)) curvatures[f] = std::abs(sum) / area;
-  }
-  return curvatures;
-}
 
 std::string roundingSentence(const ElasticModel& model, const ThinShell& shell,
                              double rigidMotionDefect) {

@@ -21,9 +21,4 @@ std::vector<std::string> shellWarnings(const ElasticModel& model, const ThinShel
 std::string roundingSentence(const ElasticModel& model, const ThinShell& shell,
                              double rigidMotionDefect);
 
-/// #F: size of the mean curvature (1 / R1 + 1 / R2) / 2 of the surface around each triangle's
-/// corners, from the angles between the triangles at their edges; zero where these are folds, of
-/// more than 30 degrees.
-Eigen::VectorXd meanCurvatures(const SurfaceMesh& mesh);
-
 }  // namespace palpate::shell
