@@ -95,6 +95,16 @@ class Package(unittest.TestCase):
             self.assertTrue(np.isfinite(matrices).all())
             self.assertGreater(np.linalg.eigvalsh(matrices).min(), 0)
 
+    def test_a_thin_bowl_has_a_stiffness_everywhere_by_the_mean_under_a_mask(self):
+        # It gives way across itself 1e5 times as easily as along itself.
+        bowl = plate()
+        points = points_of(bowl)
+        points[:, 2] = 1.5 * (points[:, 0]**2 + points[:, 1]**2)
+        model = shell(bowl, fixed=left, thickness=1e-3 * SIDE)
+        stiffness = palpate.array(palpate.stiffness(model, radius_in_edges=4, measure="mean"), "Stiffness")
+        matrices = stiffness[palpate.array(model, "BoundaryType") == 0].reshape(-1, 3, 3)
+        self.assertGreater(np.linalg.eigvalsh(matrices).min(), 0)
+
     def test_reciprocal_as_it_is(self):
         defect = palpate.array(shell(reciprocal=False), "ReciprocityDefect")[0]
         self.assertLess(defect, 1e-12)

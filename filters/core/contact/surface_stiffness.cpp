@@ -112,7 +112,8 @@ VertexStiffness maskedVertexStiffness(const GreensFunctions& greens, int vertex,
     const std::string place = "the compliance at vertex " + std::to_string(vertex);
     throw std::runtime_error(
         place + (isPositive ? " is that of no stiffness" : " is not positive definite") +
-        ": the surface is inside out there, or its walls are far thinner than its edges are long");
+        ": the surface is inside out there, its walls are far thinner than its edges are long, or "
+        "components of a shell are held there");
   }
   return {stiffness, (compliance - compliance.transpose()).norm() / compliance.norm(),
           !served.isAbove};

@@ -18,9 +18,10 @@
  * The output carries the same arrays as that of vtkBoundaryElementGreensFunctions, `Thickness` and
  * `Clamped`. Method: flat triangles with six degrees of freedom a corner, DKT in bending (J.-L. Batoz,
  * K.-J. Bathe, L.-W. Ho, Int. J. Numer. Methods Engrg. 15, 1980) and OPT with drilling rotations in their
- * plane (C. A. Felippa, Comput. Methods Appl. Mech. Engrg. 192, 2003), see
- * palpate::computeShellGreensFunctions. Compliances are symmetric to rounding, which Reciprocal takes
- * away. SmoothAngle plays no part and PatchColumns are refused, for a shell takes one traction a point.
+ * plane (C. A. Felippa, Comput. Methods Appl. Mech. Engrg. 192, 2003), which are resisted less where
+ * triangles are chords of a curved surface, see palpate::shell::shellStiffness. Compliances are symmetric
+ * to rounding, which Reciprocal takes away. SmoothAngle plays no part and PatchColumns are refused, for a
+ * shell takes one traction a point.
  */
 
 #ifndef vtkShellGreensFunctions_h
