@@ -73,4 +73,33 @@ inline Eigen::MatrixXd forceCompliance(const GreensFunctions& greens,
   return compliance;
 }
 
+inline bool base(const Eigen::Vector3d& x) {
+  return x.z() < 1e-9;
+}
+
+inline std::shared_ptr<const GreensFunctions> imported(const ElasticModel& model, MatrixKind kind,
+                                                       const Eigen::MatrixXd& matrix,
+                                                       const NodeTable& nodes = {},
+                                                       const ImportOptions& options = {}) {
+  return importGreensFunctions(model, kind, given(matrix), nodes, options).greens.take();
+}
+
+/// A frame of springs in the unit cube with a point inside, its base held.
+struct Truss {
+  Solid solid = kuhnBox({1, 1, 1}, {2, 2, 2});
+  Eigen::MatrixXd stiffness = trussStiffness(solid);
+  ElasticModel model = givenModel(boundaryOf(solid.mesh()), base);
+  NodeTable nodes = nodesAt(solid.points);
+
+  /// The rows of some vertices of its surface.
+  std::vector<int> rowsOf(const std::vector<int>& vertices) const {
+    std::vector<int> rows;
+    for (int v : vertices)
+      for (int p = 0; p < solid.points.cols(); ++p)
+        if (solid.points.col(p) == model.mesh().points().col(v))
+          for (int c = 0; c < 3; ++c) rows.push_back(3 * p + c);
+    return rows;
+  }
+};
+
 }  // namespace palpate::test

@@ -19,7 +19,7 @@ namespace palpate::imported {
 int invertDefinite(Eigen::MatrixXd& matrix, const Progress& progress = {});
 
 /// How negative a symmetric matrix is: the least eigenvalue, where it is negative, over the
-/// largest.
+/// largest in size.
 struct Negativity {
   double share = 0;  ///< 0, or what lies below the tolerance, to 1 %
   double value = 0;  ///< the eigenvalue itself
