@@ -194,7 +194,7 @@ class Interruption(unittest.TestCase):
             printed, errors = process.communicate(timeout=120)
             self.assertEqual((process.returncode, printed), (0, "caught True\n"), errors)
             self.assertEqual(errors, "")
-            self.assertLess(time.monotonic() - sent, 15)  # the whole work takes far longer
+            self.assertLess(time.monotonic() - sent, 60)  # the whole work takes minutes
 
     def test_handlers_are_left_alone_in_other_threads(self):
         before, models = signal.getsignal(signal.SIGINT), []
