@@ -180,7 +180,10 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         greens.SetClamped(flag(clamped, "clamped"))
     else:
         greens = vtkHalfSpaceGreensFunctions()
-    greens.SetInputData(posed(surface, young, poisson, fixed))
+    problem = posed(surface, young, poisson, fixed)
+    if thickness is not None:
+        set_thickness(greens, problem, thickness)
+    greens.SetInputData(problem)
     greens.SetReciprocal(flag(reciprocal, "reciprocal"))
     greens.SetNumberOfThreads(whole_number(threads, "threads", 1024))
     if columns is not None:
@@ -203,8 +206,6 @@ def posed(surface, young, poisson, fixed):
                         f"{'x'.join(map(str, fixed.shape))}")
         conditioned.GetPointData().AddArray(as_vtk(fixed.astype(bool), FIXED, 1, np.uint8))
         conditions.SetFixedArrayName(FIXED)
-    if thickness is not None:
-        set_thickness(greens, conditioned, thickness)
     conditions.SetInputData(conditioned)
     if young is not None:
         conditions.SetYoungsModulus(number(young, "Young's modulus"))

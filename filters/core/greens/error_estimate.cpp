@@ -121,7 +121,9 @@ ErrorEstimate otherErrors(const GreensFunctions& greens) {
   ErrorEstimate estimate;
   estimate.integration = kQuadratureShare * diagnostics.rotationDefect;
   const double condition = diagnostics.conditionEstimate;  // not known of iterative solves
-  estimate.solver = diagnostics.solverResidual * (condition > 0 ? condition : kUsualCondition);
+  // Where a method has no residual, its rounding is part of the rigid rotation's error.
+  estimate.solver =
+      std::max(diagnostics.solverResidual, 0.0) * (condition > 0 ? condition : kUsualCondition);
   estimate.storage = greens.epsilon() / 2;
   return estimate;
 }
