@@ -3,54 +3,21 @@
 """Finite elements through the filter, files, program and package."""
 
 import os
-import subprocess
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TRIANGLE
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
 import palpate
-from support.surfaces import PROGRAM, points_of, triangles_of
+from support.solids import bar, set_cells
+from support.surfaces import points_of, run, triangles_of
 
 warnings.simplefilter("ignore", palpate.ModelWarning)  # the surface's triangles are not all kept
 
 YOUNG, POISSON = 8e3, 0.3
-# A cube's six tetrahedra round the diagonal from corner 0 to corner 7 (corners count x, then y, then z).
-KUHN = ((0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7))
-
-
-def bar(divisions=(4, 4, 8), size=(1.0, 1.0, 2.0)):
-    """A box of tetrahedra."""
-    counts = [n + 1 for n in divisions]
-    grid = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    for k in range(counts[2]):
-        for j in range(counts[1]):
-            for i in range(counts[0]):
-                points.InsertNextPoint(*(s * n / d for s, n, d in zip(size, (i, j, k), divisions)))
-    grid.SetPoints(points)
-    for k in range(divisions[2]):
-        for j in range(divisions[1]):
-            for i in range(divisions[0]):
-                corners = [(i + (c & 1)) + counts[0] * ((j + (c >> 1 & 1)) + counts[1] * (k + (c >> 2)))
-                           for c in range(8)]
-                for tetrahedron in KUHN:
-                    grid.InsertNextCell(VTK_TETRA, 4, [corners[c] for c in tetrahedron])
-    return grid
-
-
-def set_cells(grid, **arrays):
-    for name, values in arrays.items():
-        array = numpy_to_vtk(np.array(values, dtype=float), deep=True)
-        array.SetName(name)
-        grid.GetCellData().AddArray(array)
-    return grid
 
 
 def surface_of(grid):
@@ -81,10 +48,6 @@ def stretch(model):
     tractions[np.isin(corners, top).all(axis=1), 2] = 1
     solved = palpate.solve(model, [], np.zeros((0, 3)), face_tractions=tractions)
     return palpate.array(solved, "Displacement")[top, 2].mean()
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 class Package(unittest.TestCase):

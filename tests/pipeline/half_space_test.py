@@ -3,14 +3,14 @@
 """Half-spaces through filters, files, program and package."""
 
 import os
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
 
 import palpate
-from support.surfaces import PROGRAM, polydata, sphere
+from support.commands import require_all_commands
+from support.surfaces import polydata, run, sphere
 
 YOUNG, POISSON = 1e4, 0.4
 MODULUS = YOUNG / (1 - POISSON**2)
@@ -40,10 +40,6 @@ def disc(radius=0.05, rings=12):
 
 def half_space(**settings):
     return palpate.precompute(disc(), YOUNG, POISSON, method="halfspace", **settings)
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 class Package(unittest.TestCase):
@@ -136,18 +132,8 @@ class Program(unittest.TestCase):
     def test_makes_models_that_all_commands_take(self):
         self.assertEqual(self.made.returncode, 0, self.made.stderr)
         self.assertIn("reciprocity defect", self.made.stdout)
-        info = run("info", self.model).stdout
-        self.assertRegex(info, "pieces +1")
-        self.assertRegex(info, "sound +yes")
-        self.assertIn("half-space (Boussinesq and Cerruti", info)
-        pressed = run("press", self.model, self.out, "--at", 0, 0, 0, "--displacement", 0, 0, -0.003,
-                      "--radius", 0.01)
-        self.assertEqual(pressed.returncode, 0, pressed.stderr)
-        stiffness = run("stiffness", self.model, self.out, "--radius-edges", 2)
-        self.assertEqual(stiffness.returncode, 0, stiffness.stderr)
-        for tool in ((), ("--tool-radius", 0.02)):
-            touched = run("touch", self.model, *tool, "--device", "simulated", "--headless", "--seconds", 1)
-            self.assertEqual(touched.returncode, 0, touched.stderr)
+        require_all_commands(self, self.model, self.out, made_by="half-space (Boussinesq and Cerruti",
+                             radius=0.01, tool_radius=0.02)
 
     def test_refuses_options_of_boundary_elements(self):
         for option in (("--precision", "float"), ("--tolerance", 0.1), ("--support-patch",),

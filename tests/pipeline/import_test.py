@@ -4,7 +4,6 @@
 
 import functools
 import os
-import subprocess
 import tempfile
 import unittest
 import warnings
@@ -23,12 +22,12 @@ from support.matrices import (
 )
 from support.refused import Refusals
 from support.surfaces import (
-    PROGRAM,
     Executions,
     copy_of,
     failure_of,
     lower_cap,
     points_of,
+    run,
     sphere,
     sphere_model,
 )
@@ -53,10 +52,6 @@ def held_sphere():
 def matrix_of(model):
     nodes = palpate.greens_function_nodes(model)
     return palpate.greens_functions(model)[(3 * nodes[:, None] + np.arange(3)).ravel()]
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 class Folder(Refusals):

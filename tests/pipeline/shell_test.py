@@ -3,7 +3,6 @@
 """Plates and shells through filters, files, program and package."""
 
 import os
-import subprocess
 import tempfile
 import unittest
 import warnings
@@ -12,7 +11,8 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_vtk
-from support.surfaces import PROGRAM, failure_of, points_of, polydata, sphere
+from support.commands import require_all_commands
+from support.surfaces import failure_of, points_of, polydata, run, sphere
 
 YOUNG, POISSON, THICKNESS, SIDE = 2e9, 0.3, 1e-3, 0.2
 BENDING = YOUNG * THICKNESS**3 / 12 / (1 - POISSON**2)
@@ -50,10 +50,6 @@ def with_array(surface, values, name, kind="point"):
     data = surface.GetPointData() if kind == "point" else surface.GetCellData()
     data.AddArray(as_vtk(values, name, 1 if values.ndim == 1 else values.shape[1]))
     return surface
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 class Package(unittest.TestCase):
@@ -281,18 +277,8 @@ class Program(unittest.TestCase):
     def test_makes_models_that_all_commands_take(self):
         made = self.precompute(self.model, "--thickness", THICKNESS)
         self.assertEqual(made.returncode, 0, made.stderr)
-        info = run("info", self.model).stdout
-        self.assertRegex(info, "pieces +1")
-        self.assertRegex(info, "sound +yes")
-        self.assertIn("thin shell (DKT and OPT triangles, 288 of them, thickness 0.001, clamped)", info)
-        pressed = run("press", self.model, self.out, "--at", 0, 0, 0, "--displacement", 0, 0, -0.003,
-                      "--radius", 0.03)
-        self.assertEqual(pressed.returncode, 0, pressed.stderr)
-        stiffness = run("stiffness", self.model, self.out, "--radius-edges", 2)
-        self.assertEqual(stiffness.returncode, 0, stiffness.stderr)
-        for tool in ((), ("--tool-radius", 0.03)):
-            touched = run("touch", self.model, *tool, "--device", "simulated", "--headless", "--seconds", 1)
-            self.assertEqual(touched.returncode, 0, touched.stderr)
+        require_all_commands(self, self.model, self.out, made_by="thin shell (DKT and OPT triangles, 288 of them, thickness 0.001, clamped)",
+                             radius=0.03, tool_radius=0.03)
 
     def test_refuses_in_a_sentence(self):
         for options, sentence in (

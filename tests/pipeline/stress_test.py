@@ -3,7 +3,6 @@
 """Strain and stress of pressed bodies, at their surface and inside, through filters, package and program."""
 
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -12,7 +11,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 import palpate
-from support.surfaces import PROGRAM, points_of, sphere, triangles_of
+from support.solids import bar, base_of, set_cells
+from support.surfaces import points_of, run, sphere, triangles_of
 
 YOUNG, POISSON = 8e3, 0.3
 
@@ -87,10 +87,9 @@ class InteriorProbe(unittest.TestCase):
 
 class SurfaceStress(unittest.TestCase):
     def test_a_stretched_bar_bears_its_load(self):
-        from pipeline.finite_element_test import bar
         grid = bar((4, 4, 8))
         model = palpate.precompute(grid, YOUNG, 0.0, method="fem", patch_columns=True, reciprocal=False,
-                                   fixed=self.base(grid))
+                                   fixed=base_of(grid))
         points, corners = points_of(model), triangles_of(model)
         tractions = np.zeros((len(corners), 3))
         tractions[(points[corners][:, :, 2] > 2 - 1e-9).all(axis=1), 2] = 7
@@ -112,21 +111,14 @@ class SurfaceStress(unittest.TestCase):
         kidney = palpate.precompute(palpate.read(palpate.example("kidney")), YOUNG, POISSON)
         with self.assertRaisesRegex(palpate.Error, "no point array 'Displacement'.*press the model first"):
             palpate.surface_stress(kidney)
-        from pipeline.finite_element_test import bar, set_cells
         grid = bar((2, 2, 4))
         cells = grid.GetNumberOfCells()
         set_cells(grid, YoungsModulus=np.linspace(1, 2, cells), PoissonRatio=np.full(cells, 0.3))
-        model = palpate.precompute(grid, YOUNG, 0.3, method="fem", fixed=self.base(grid))
+        model = palpate.precompute(grid, YOUNG, 0.3, method="fem", fixed=base_of(grid))
         pressed = palpate.press(model, point=(0.5, 0.5, 2), force=(0, 0, -1), radius=0.5)
         for refused in (palpate.surface_stress, lambda data: palpate.probe(data, [(0.5, 0.5, 1)])):
             with self.assertRaisesRegex(palpate.Error, "bodies of one isotropic material"):
                 refused(pressed)
-
-    def base(self, grid):
-        boundary = palpate.vtkSolidBoundary()
-        boundary.SetInputData(grid)
-        boundary.Update()
-        return points_of(boundary.GetOutput())[:, 2] < 1e-9
 
 
 class Program(unittest.TestCase):
@@ -137,9 +129,8 @@ class Program(unittest.TestCase):
                                              POISSON), model)
 
             def press(force, *more):
-                return subprocess.run([PROGRAM, "press", model, out, "--at", "0", "0", "0.03", "--force", "0",
-                                       "0", str(force), "--radius", "0.01", *more], capture_output=True,
-                                      text=True, timeout=120)
+                return run("press", model, out, "--at", 0, 0, 0.03, "--force", 0, 0, force, "--radius", 0.01,
+                           *more)
 
             told = press(-0.01, "--stress", "--probe", "0", "0", "0", "0", "0", "0.002")
             self.assertEqual(told.returncode, 0, told.stderr)

@@ -14,8 +14,10 @@ from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import palpate
-from pipeline.finite_element_test import POISSON, YOUNG, bar, run, set_cells
-from support.surfaces import points_of, triangles_of
+from support.solids import bar, base_of, boundary_of, set_cells
+from support.surfaces import points_of, run, triangles_of
+
+YOUNG, POISSON = 8e3, 0.3
 
 
 def written(writer, grid, path):
@@ -56,11 +58,7 @@ class VolumeFiles(unittest.TestCase):
                    "--fix-half-space", 0, 0, 1e-9, 0, 0, 1, *options)
 
     def expected(self):
-        boundary = palpate.vtkSolidBoundary()
-        boundary.SetInputData(self.grid)
-        boundary.Update()
-        fixed = points_of(boundary.GetOutput())[:, 2] < 1e-9
-        return palpate.precompute(self.grid, YOUNG, POISSON, fixed=fixed, method="fem")
+        return palpate.precompute(self.grid, YOUNG, POISSON, fixed=base_of(self.grid), method="fem")
 
     def test_both_vtk_formats_give_the_model_of_the_grid(self):
         expected = palpate.greens_functions(self.expected())
@@ -105,10 +103,7 @@ class VolumeFiles(unittest.TestCase):
         heights = palpate.arrays.as_vtk([self.grid.GetPoint(i)[2] for i in range(self.grid.GetNumberOfPoints())],
                                         "Height", 1)
         self.grid.GetPointData().AddArray(heights)
-        boundary = palpate.vtkSolidBoundary()
-        boundary.SetInputData(self.grid)
-        boundary.Update()
-        surface = boundary.GetOutput()
+        surface = boundary_of(self.grid)
         points, corners = points_of(surface), triangles_of(surface)
         volume = np.einsum("fi,fi", points[corners[:, 0]],
                            np.cross(points[corners[:, 1]], points[corners[:, 2]])) / 6
@@ -151,8 +146,7 @@ class VolumeFiles(unittest.TestCase):
             grid = bar((2, 2, 4))
             cells = grid.GetNumberOfCells()
             set_cells(grid, OrthotropicModuli=[moduli] * cells, MaterialAxes=[axes] * cells)
-            self.grid = grid
-            model = palpate.precompute(grid, YOUNG, POISSON, fixed=self.base(), method="fem",
+            model = palpate.precompute(grid, YOUNG, POISSON, fixed=base_of(grid), method="fem",
                                        patch_columns=True, reciprocal=False)
             points, corners = points_of(model), triangles_of(model)
             top = np.flatnonzero(points[:, 2] > 2 - 1e-9)
@@ -163,13 +157,7 @@ class VolumeFiles(unittest.TestCase):
                                    delta=1e-9)
         set_cells(grid, MaterialAxes=[(1, 0, 0, 3, 0, 0)] * cells)
         with self.assertRaisesRegex(palpate.Error, "cell 0 of the volume mesh: its MaterialAxes"):
-            palpate.precompute(grid, YOUNG, POISSON, fixed=self.base(), method="fem")
-
-    def base(self):
-        boundary = palpate.vtkSolidBoundary()
-        boundary.SetInputData(self.grid)
-        boundary.Update()
-        return points_of(boundary.GetOutput())[:, 2] < 1e-9
+            palpate.precompute(grid, YOUNG, POISSON, fixed=base_of(grid), method="fem")
 
 
 if __name__ == "__main__":

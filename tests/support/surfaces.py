@@ -4,6 +4,7 @@
 
 import functools
 import os
+import subprocess
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -14,6 +15,11 @@ import palpate
 from palpate.errors import silenced
 
 PROGRAM = os.environ.get("PALPATE_PROGRAM", "palpate")
+
+
+def run(*arguments):
+    """What the program did with some arguments."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
 def polydata(points, triangles):
