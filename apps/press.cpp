@@ -20,6 +20,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "greens/surface_fields.h"
 #include "picture/picture.h"
 #include "terminal.h"
 
@@ -58,10 +59,9 @@ void printContact(vtkPolyData* pressed) {
 
 /// By how much linear theory is strained.
 void printValidity(vtkPolyData* pressed) {
-  constexpr double trusted = 0.1;
   const double largest = fieldNumber(pressed, "LargestDisplacementGradient", 0);
   printRow("largest displacement gradient", number(largest, 3));
-  if (largest > trusted)
+  if (largest > DisplacementGradients::kTrusted)
     printWarning(
         "displacements change by more than a tenth of the way they change over: linear "
         "theory is off by more than 5 % there; press less, or spread it by a larger mask");

@@ -17,6 +17,14 @@ std::string sentence(const Parts&... parts) {
   return text.str();
 }
 
+/// Three digits of a number.
+inline std::string shortly(double x) {
+  std::ostringstream text;
+  text.precision(3);
+  text << x;
+  return text.str();
+}
+
 /// @throws std::invalid_argument that says so.
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {

@@ -13,8 +13,6 @@
 #include "bem/boundary_element_method.h"
 #include "fem/finite_element_method.h"
 #include "mesh/loop_subdivision.h"
-#include "mesh/surface_locator.h"
-#include "mesh/tetrahedralization.h"
 #include "support/data_models.h"
 #include "support/problems.h"
 #include "support/solids.h"
@@ -60,23 +58,12 @@ TEST_P(BothMethods, AgreeWithinTheSumOfTheirEstimatedErrors) {
 
   const Tetrahedralization filled = tetrahedralize(model.mesh());
   ASSERT_EQ(filled.newBoundaryPoints, 0);
-  const auto surface =
-      std::make_shared<const SurfaceMesh>(model.mesh().points(), filled.mesh.boundary());
-  const SurfaceLocator locator(model.sharedMesh());
-  Eigen::VectorXi patches(surface->triangleCount());
-  for (int f = 0; f < patches.size(); ++f)
-    patches[f] =
-        model.smoothPatches()
-            [locator
-                 .nearest(
-                     surface->points()(Eigen::all, surface->triangles().col(f)).rowwise().mean())
-                 .triangle];
-  const ElasticModel solid(surface, model.material(), model.conditions(), patches);
+  const ElasticModel solid = onBoundary(model, filled);
   FiniteElementOptions options;
   options.estimateError = true;
   const auto finite =
       computeFiniteElementGreensFunctions(
-          solid, SolidBody(*surface, filled.mesh, {Elasticity(model.material())}), options)
+          solid, SolidBody(solid.mesh(), filled.mesh, {Elasticity(model.material())}), options)
           .take();
 
   const ErrorEstimate a = boundary->info().diagnostics.error, b = finite->info().diagnostics.error;
@@ -87,7 +74,7 @@ TEST_P(BothMethods, AgreeWithinTheSumOfTheirEstimatedErrors) {
   std::vector<int> same(model.mesh().vertexCount());
   std::iota(same.begin(), same.end(), 0);
   const LoadDifferences found =
-      compareUnderLoads(*boundary, model.mesh(), *finite, *surface, same, loads);
+      compareUnderLoads(*boundary, model.mesh(), *finite, solid.mesh(), same, loads);
   ASSERT_GT(found.contact.size(), 10u);
   const double field = LoadDifferences::mean(found.field),
                contact = LoadDifferences::mean(found.contact);

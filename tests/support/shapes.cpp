@@ -167,21 +167,11 @@ Shape plate(double side, int divisions) {
   return jitteredPlate(side, divisions, 0);
 }
 
-Shape jitteredPlate(double side, int divisions, double amount, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> move(-amount, amount);
-  std::vector<Eigen::Vector3d> points;
+std::vector<Eigen::Vector3i> alternatingSquares(int alongX, int alongY) {
   std::vector<Eigen::Vector3i> triangles;
-  for (int j = 0; j <= divisions; ++j)
-    for (int i = 0; i <= divisions; ++i) {
-      const bool isInner = i > 0 && j > 0 && i < divisions && j < divisions;
-      const double x = isInner ? move(random) : 0, y = isInner ? move(random) : 0;
-      points.emplace_back(side * ((i + x) / divisions - 0.5), side * ((j + y) / divisions - 0.5),
-                          0);
-    }
-  for (int j = 0; j < divisions; ++j)
-    for (int i = 0; i < divisions; ++i) {
-      const int a = j * (divisions + 1) + i, b = a + 1, c = a + divisions + 1, d = c + 1;
+  for (int j = 0; j < alongY; ++j)
+    for (int i = 0; i < alongX; ++i) {
+      const int a = j * (alongX + 1) + i, b = a + 1, c = a + alongX + 1, d = c + 1;
       if ((i + j) % 2 == 0) {
         triangles.emplace_back(a, b, d);
         triangles.emplace_back(a, d, c);
@@ -190,7 +180,21 @@ Shape jitteredPlate(double side, int divisions, double amount, unsigned seed) {
         triangles.emplace_back(b, d, c);
       }
     }
-  return fromLists(points, triangles);
+  return triangles;
+}
+
+Shape jitteredPlate(double side, int divisions, double amount, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-amount, amount);
+  std::vector<Eigen::Vector3d> points;
+  for (int j = 0; j <= divisions; ++j)
+    for (int i = 0; i <= divisions; ++i) {
+      const bool isInner = i > 0 && j > 0 && i < divisions && j < divisions;
+      const double x = isInner ? move(random) : 0, y = isInner ? move(random) : 0;
+      points.emplace_back(side * ((i + x) / divisions - 0.5), side * ((j + y) / divisions - 0.5),
+                          0);
+    }
+  return fromLists(points, alternatingSquares(divisions, divisions));
 }
 
 Shape boxWithNeedles(double width) {

@@ -51,6 +51,9 @@ Shape box(const Eigen::Vector3d& size, const Eigen::Vector3i& divisions);
 /// Flat disc about the origin, its normal z: six triangles round the middle, rings of 6 k vertices.
 Shape disc(double radius, int rings);
 
+/// A grid of squares cut in two along alternating diagonals; points count along x first.
+std::vector<Eigen::Vector3i> alternatingSquares(int alongX, int alongY);
+
 /// Flat square about the origin, its normal z, cut in squares and these along alternating
 /// diagonals.
 Shape plate(double side, int divisions);

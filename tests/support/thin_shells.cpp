@@ -51,21 +51,9 @@ Shape sheetOf(int n, const std::function<Eigen::Vector3d(double, double)>& map) 
 
 Shape sheetOf(int alongX, int alongY, const std::function<Eigen::Vector3d(double, double)>& map) {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3i> triangles;
   for (int j = 0; j <= alongY; ++j)
     for (int i = 0; i <= alongX; ++i) points.push_back(map(double(i) / alongX, double(j) / alongY));
-  for (int j = 0; j < alongY; ++j)
-    for (int i = 0; i < alongX; ++i) {
-      const int a = j * (alongX + 1) + i, b = a + 1, c = a + alongX + 1, d = c + 1;
-      if ((i + j) % 2 == 0) {
-        triangles.emplace_back(a, b, d);
-        triangles.emplace_back(a, d, c);
-      } else {
-        triangles.emplace_back(a, b, c);
-        triangles.emplace_back(b, d, c);
-      }
-    }
-  return fromLists(points, triangles);
+  return fromLists(points, alternatingSquares(alongX, alongY));
 }
 
 Eigen::Matrix3Xd displacementUnder(const ShellProblem& problem, const Eigen::Matrix3Xd& forces) {

@@ -38,9 +38,8 @@ class ProbePlaces {
     return (placeOf(model_.mesh(), locator_.nearest(point)) - point).norm() /
            model_.mesh().meanEdgeLength();
   }
-  bool isLegal(const Eigen::Vector3d& point) const {
-    return point.allFinite() && locator_.isInside(point) == (model_.domain() == Domain::Interior) &&
-           distance(point) >= kNearest;
+  bool isInside(const Eigen::Vector3d& point) const {
+    return locator_.isInside(point) == (model_.domain() == Domain::Interior);
   }
 
  private:
@@ -54,7 +53,9 @@ std::vector<int> probesInside(const ElasticModel& model, const Eigen::Matrix3Xd&
   const ProbePlaces places(model);
   std::vector<int> inside;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    if (places.isLegal(points.col(i))) inside.push_back(static_cast<int>(i));
+    if (const Eigen::Vector3d point = points.col(i);
+        point.allFinite() && places.isInside(point) && places.distance(point) >= kNearest)
+      inside.push_back(static_cast<int>(i));
   return inside;
 }
 
@@ -128,7 +129,7 @@ InteriorProbes::InteriorProbes(const ElasticModel& model, const Eigen::Matrix3Xd
     const Eigen::Vector3d point = points.col(i);
     if (!point.allFinite()) refuse("probe ", i, " is not at a finite place");
     distances_[i] = places.distance(point);
-    if (!places.isLegal(point))
+    if (distances_[i] < kNearest || !places.isInside(point))
       refuse("probe ", i, " at (", point.x(), ", ", point.y(), ", ", point.z(),
              distances_[i] < kNearest ? ") lies on the surface" : ") is not inside the material");
   }

@@ -13,7 +13,6 @@
 #include "greens/error_estimate.h"
 #include "greens/reciprocity.h"
 #include "mesh/surface_locator.h"
-#include "mesh/tetrahedralization.h"
 #include "stopwatch.h"
 
 namespace palpate {
@@ -50,22 +49,6 @@ std::vector<WantedColumn> wantedColumns(const GreensFunctionsInfo& info,
   return wanted;
 }
 
-/// From the units of the system to those of the model: per pascal or metre, as metres or pascals.
-void scaleToModel(double length, double stiffness, const GreensFunctionsInfo& info,
-                  const std::vector<WantedColumn>& wanted, Eigen::MatrixXd& columns) {
-  const Eigen::VectorXd areas = info.vertexAreas / (length * length);
-  for (std::size_t c = 0; c < wanted.size(); ++c) {
-    const bool ofDisplacement = wanted[c].kind == WantedColumn::Displacement;
-    const double perGiven = ofDisplacement ? 1 / length
-                            : wanted[c].kind == WantedColumn::Force
-                                ? areas[wanted[c].index] / stiffness
-                                : 1 / stiffness;
-    for (int v = 0; v < info.conditions.nodeCount(); ++v)
-      columns.block<3, 3>(3 * v, 3 * c) *=
-          perGiven * (info.conditions.isFixed(v) ? stiffness / areas[v] : length);
-  }
-}
-
 std::string describeSource(const SolidBody& body, SolidElement element) {
   std::ostringstream text;
   text << "finite elements (" << (element == SolidElement::Linear ? "linear" : "quadratic")
@@ -82,23 +65,6 @@ AlignedBuffer<double> taken(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
 }
 
 constexpr double kEstimateShare = 0.3;
-
-/// The model whose triangles are those of what its surface was filled with.
-ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& filled) {
-  if (filled.newBoundaryPoints > 0)
-    throw std::runtime_error("filling the surface took new vertices on it");
-  if (filled.lostTriangles == 0) return model;
-  const SurfaceLocator locator(model.sharedMesh());
-  const auto mesh =
-      std::make_shared<const SurfaceMesh>(model.mesh().points(), filled.mesh.boundary());
-  Eigen::VectorXi patches(mesh->triangleCount());
-  for (int f = 0; f < patches.size(); ++f) {
-    const Eigen::Vector3d middle =
-        mesh->points()(Eigen::all, mesh->triangles().col(f)).rowwise().mean();
-    patches[f] = model.smoothPatches()[locator.nearest(middle).triangle];
-  }
-  return ElasticModel(mesh, model.material(), model.conditions(), std::move(patches));
-}
 
 /// The same method for another mesh, filled with the same material.
 EstimatedMethod estimatedMethod(const FiniteElementOptions& options, const Elasticity& material) {
@@ -121,6 +87,22 @@ EstimatedMethod estimatedMethod(const FiniteElementOptions& options, const Elast
 }
 
 }  // namespace
+
+ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& filled) {
+  if (filled.newBoundaryPoints > 0)
+    throw std::runtime_error("filling the surface took new vertices on it");
+  if (filled.lostTriangles == 0) return model;
+  const SurfaceLocator locator(model.sharedMesh());
+  const auto mesh =
+      std::make_shared<const SurfaceMesh>(model.mesh().points(), filled.mesh.boundary());
+  Eigen::VectorXi patches(mesh->triangleCount());
+  for (int f = 0; f < patches.size(); ++f) {
+    const Eigen::Vector3d middle =
+        mesh->points()(Eigen::all, mesh->triangles().col(f)).rowwise().mean();
+    patches[f] = model.smoothPatches()[locator.nearest(middle).triangle];
+  }
+  return ElasticModel(mesh, model.material(), model.conditions(), std::move(patches));
+}
 
 ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& model,
                                                             const SolidBody& body,
@@ -154,7 +136,9 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   const double length = system.length, stiffness = system.stiffness;
   fem::SurfaceResponse response =
       fem::surfaceResponse(std::move(system), model, wanted, shares, progress.part(0.1, 0.95));
-  scaleToModel(length, stiffness, info, wanted, response.columns);
+  std::vector<double> perGiven = perGivenOfNodes(info, length, stiffness);
+  perGiven.resize(wanted.size(), 1 / stiffness);  // tractions on single patches come last
+  scaleToModel(info, length, stiffness, perGiven, response.columns);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;
   info.diagnostics.peakBytes = response.peakBytes + sizeof(double) * response.columns.size();

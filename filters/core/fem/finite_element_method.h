@@ -8,6 +8,7 @@
 #include "fem/solid_body.h"
 #include "fem/solid_elements.h"
 #include "greens/computed_greens_functions.h"
+#include "mesh/tetrahedralization.h"
 #include "model/elastic_model.h"
 #include "progress.h"
 
@@ -55,5 +56,10 @@ struct FiniteElementOptions {
 ComputedGreensFunctions computeFiniteElementGreensFunctions(
     const ElasticModel& model, const SolidBody& body, const FiniteElementOptions& options = {},
     const ProgressCallback& progress = {});
+
+/// The model on the boundary of what its surface was filled with: the same vertices, triangles that
+/// may be others, each of the smooth patch of the nearest one.
+/// @throws std::runtime_error if the boundary has new vertices.
+ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& filled);
 
 }  // namespace palpate

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
+#include "model/support.h"
 #include "sentence.h"
 
 namespace palpate::fem {
@@ -52,7 +53,7 @@ class Condensation {
     const int columns = 3 * static_cast<int>(wanted.size());
     SurfaceResponse response;
     Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), 6);
-    given.bottomRows(3 * system_.fixedVertices.size()) = rigidMotions(system_.fixedVertices);
+    given.bottomRows(3 * system_.fixedVertices.size()) = motionsOf(system_.fixedVertices);
     Eigen::MatrixXd answer;
     progress.report(0, "factor");
     if (kColumnsWorthSchur * columns < system_.keptCount()) {
@@ -100,18 +101,10 @@ class Condensation {
     shared_ = products_.solve(Eigen::MatrixXd(toFixed_));
   }
 
-  /// 3 #vertices by 6: three translations and three rotations about the middle of the mesh.
-  Eigen::MatrixXd rigidMotions(const std::vector<int>& vertices) const {
-    const Eigen::Vector3d middle = mesh_.points().rowwise().mean();
-    Eigen::MatrixXd motions(3 * vertices.size(), 6);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Eigen::Vector3d x = (mesh_.points().col(vertices[i]) - middle) / system_.length;
-      for (int k = 0; k < 3; ++k) {
-        motions.block<3, 1>(3 * i, k) = Eigen::Vector3d::Unit(k);
-        motions.block<3, 1>(3 * i, 3 + k) = Eigen::Vector3d::Unit(k).cross(x);
-      }
-    }
-    return motions;
+  /// 3 #vertices by 6, about the middle of the mesh.
+  Eigen::MatrixXd motionsOf(const std::vector<int>& vertices) const {
+    const Eigen::Matrix3Xd& points = mesh_.points();
+    return rigidMotions(points(Eigen::all, vertices), points.rowwise().mean(), system_.length);
   }
 
   /// kept by 3 #wanted: (-t, w) of each column.
@@ -243,8 +236,8 @@ class Condensation {
 
   /// By the displacements nearest in the mean square, in which rigid motions are exact.
   double defectOf(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
-    const Eigen::MatrixXd expected = rigidMotions(free_);
-    const Eigen::MatrixXd held = rigidMotions(system_.fixedVertices);
+    const Eigen::MatrixXd expected = motionsOf(free_);
+    const Eigen::MatrixXd held = motionsOf(system_.fixedVertices);
     const Eigen::MatrixXd means = meansUnderHats(answer);
     double largest = 0;
     for (int k = 0; k < 3; ++k) {

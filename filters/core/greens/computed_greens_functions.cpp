@@ -41,6 +41,25 @@ std::vector<int> checkedColumns(const ElasticModel& model, const std::vector<int
   return sorted;
 }
 
+void scaleToModel(const GreensFunctionsInfo& info, double length, double stiffness,
+                  const std::vector<double>& perGiven, Eigen::Ref<Eigen::MatrixXd> columns) {
+  const Eigen::VectorXd areas = info.vertexAreas / (length * length);
+  for (std::size_t c = 0; c < perGiven.size(); ++c)
+    for (int v = 0; v < info.conditions.nodeCount(); ++v)
+      columns.block<3, 3>(3 * v, 3 * c) *=
+          perGiven[c] * (info.conditions.isFixed(v) ? stiffness / areas[v] : length);
+}
+
+std::vector<double> perGivenOfNodes(const GreensFunctionsInfo& info, double length,
+                                    double stiffness) {
+  std::vector<double> perGiven;
+  for (int node : info.columnNodes)
+    perGiven.push_back(info.conditions.isFixed(node)
+                           ? 1 / length
+                           : info.vertexAreas[node] / (length * length) / stiffness);
+  return perGiven;
+}
+
 GreensFunctionsInfo infoOf(const ElasticModel& model, const std::vector<int>& columns) {
   GreensFunctionsInfo info;
   info.conditions = model.conditions();

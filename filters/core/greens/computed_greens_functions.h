@@ -30,6 +30,18 @@ struct ComputedGreensFunctions {
 /// @throws std::invalid_argument naming a node that the model does not have.
 std::vector<int> checkedColumns(const ElasticModel& model, const std::vector<int>& columns);
 
+/// Takes columns from a system's own units to those of the model: displacements of free nodes to
+/// metres, forces of fixed ones to pascals.
+/// @param length, stiffness  units of the system, m and Pa.
+/// @param perGiven           #columns / 3: the system's units of what is given per pascal or metre.
+/// @param columns            3 #nodes by any.
+void scaleToModel(const GreensFunctionsInfo& info, double length, double stiffness,
+                  const std::vector<double>& perGiven, Eigen::Ref<Eigen::MatrixXd> columns);
+
+/// That unit for columnNodes: of forces over a free node's area, or displacements of a fixed one.
+std::vector<double> perGivenOfNodes(const GreensFunctionsInfo& info, double length,
+                                    double stiffness);
+
 /// What Green's functions say of the model that they belong to, with checkedColumns.
 /// @throws as checkedColumns.
 GreensFunctionsInfo infoOf(const ElasticModel& model, const std::vector<int>& columns);

@@ -43,6 +43,7 @@ DisplacementGradients surfaceGradients(const SurfaceMesh& mesh,
   for (int f = 0; f < mesh.triangleCount(); ++f) {
     const Eigen::Matrix3d& gradient =
         result.gradient.emplace_back(gradientAlong(mesh, f, displacement));
+    if (gradient.norm() <= result.largest) continue;  // Frobenius' norm is none the less
     const double norm =
         std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
                                     gradient.transpose() * gradient, Eigen::EigenvaluesOnly)

@@ -80,13 +80,8 @@ RigidMotions rigidMotions(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3
   const Eigen::Vector3d middle = points.rowwise().mean();
   const double size = std::max((points.colwise() - middle).colwise().norm().maxCoeff(),
                                std::numeric_limits<double>::min());
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(stiffness.rows(), rotations ? 6 : 3);
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    motions.block<3, 3>(3 * i, 0).setIdentity();
-    const Eigen::Vector3d r = (points.col(i) - middle) / size;
-    if (rotations)
-      motions.block<3, 3>(3 * i, 3) << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
-  }
+  const Eigen::MatrixXd motions =
+      palpate::rigidMotions(points, middle, size).leftCols(rotations ? 6 : 3);
   // Motions are made orthogonal under the points' own stiffness; few points have fewer than six.
   const Eigen::VectorXd own = stiffness.diagonal().cwiseSqrt();
   const Eigen::BDCSVD<Eigen::MatrixXd> weighted(own.asDiagonal() * motions,

@@ -10,6 +10,7 @@
 #include "imported/given_checks.h"
 #include "imported/response.h"
 #include "imported/static_condensation.h"
+#include "mesh/shells.h"
 #include "mesh/triangle_sides.h"
 #include "sentence.h"
 #include "stopwatch.h"
@@ -40,12 +41,7 @@ void requireOutwards(const SurfaceMesh& mesh) {
   forEachEdge(sortedSides(mesh.triangles()),
               [&](auto first, auto last) { isClosed = isClosed && last - first == 2; });
   if (!isClosed) return;
-  double volume = 0;
-  const Eigen::Vector3d middle = mesh.points().rowwise().mean();
-  for (int f = 0; f < mesh.triangleCount(); ++f)
-    volume += mesh.triangleAreas()[f] *
-              mesh.triangleNormals().col(f).dot(mesh.points().col(mesh.triangles()(0, f)) - middle);
-  if (volume <= 0)
+  if (enclosedVolume(mesh.points(), mesh.triangles()) <= 0)
     refuse(
         "the normals of this closed surface point into what it encloses: turn its triangles "
         "round (`palpate repair`)");

@@ -10,19 +10,9 @@
 #include "mesh/wall_thickness.h"
 #include "model/plane.h"
 #include "model/support.h"
+#include "sentence.h"
 
 namespace palpate {
-namespace {
-
-template <class... Parts>
-std::string inThreeDigits(const Parts&... parts) {
-  std::ostringstream text;
-  text.precision(3);
-  (text << ... << parts);
-  return text.str();
-}
-
-}  // namespace
 
 ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                            BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
@@ -47,7 +37,8 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
     requireHalfSpace();
   else if (mesh_->rims() == Rims::Allowed && rimsOf(domain_) == Rims::Refused)
     throw std::invalid_argument(
-        "a sheet with rims bounds a half-space, is a shell's middle or belongs to a given matrix, it "
+        "a sheet with rims bounds a half-space, is a shell's middle or belongs to a given matrix, "
+        "it "
         "bounds no other domain");
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
   for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
@@ -96,14 +87,14 @@ std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRa
       model.domain() == Domain::Interior ? largestWallRatio(model.mesh()) : WallRatio{};
   wallRatio = wall.ratio;
   if (wallRatio > veryThinFrom)
-    warnings.push_back(inThreeDigits(
+    warnings.push_back(sentence(
         "the wall at triangle ", wall.triangle,
-        " is thinner than the edges there (edge over thickness ", wallRatio,
+        " is thinner than the edges there (edge over thickness ", shortly(wallRatio),
         "): it is too stiff in bending; refine until edges are shorter than the wall is thick"));
   else if (wallRatio > thinFrom)
-    warnings.push_back(inThreeDigits("the wall at triangle ", wall.triangle,
-                                     " is thin for the mesh (edge over thickness ", wallRatio,
-                                     "): if it bends, compare with a finer mesh"));
+    warnings.push_back(sentence("the wall at triangle ", wall.triangle,
+                                " is thin for the mesh (edge over thickness ", shortly(wallRatio),
+                                "): if it bends, compare with a finer mesh"));
   for (std::string& warning : supportWarnings(model, supportWidth))
     warnings.push_back(std::move(warning));
   return warnings;
@@ -114,9 +105,9 @@ std::vector<std::string> supportWarnings(const ElasticModel& model, double& supp
   const double width = supportWidthInEdges(model.mesh(), model.conditions());
   supportWidth = std::isfinite(width) ? width : -1;
   if (!(width < narrowBelow)) return {};
-  return {inThreeDigits("a support is only ", width,
-                        " edges wide: its compliance depends on the mesh; fix an area at least ",
-                        narrowBelow, " edges wide")};
+  return {sentence("a support is only ", shortly(width),
+                   " edges wide: its compliance depends on the mesh; fix an area at least ",
+                   narrowBelow, " edges wide")};
 }
 
 }  // namespace palpate

@@ -29,6 +29,18 @@ std::string RigidMotion::describe() const {
   return text.str();
 }
 
+Eigen::MatrixXd rigidMotions(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& middle,
+                             double length) {
+  Eigen::MatrixXd motions(3 * points.cols(), 6);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+      motions.block<3, 1>(3 * i, k) = axis;
+      motions.block<3, 1>(3 * i, 3 + k) = axis.cross((points.col(i) - middle) / length);
+    }
+  return motions;
+}
+
 RigidMotion leastResistedMotion(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& directions,
                                 double bodySize, const Eigen::Matrix3Xd& axes) {
   const Eigen::Index count = points.cols();

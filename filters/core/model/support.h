@@ -24,6 +24,14 @@ struct RigidMotion {
 
 constexpr double kSmallestResistance = 1e-6;
 
+/// Displacements of points that move rigidly: three unit translations along the axes, then turns
+/// about them through a middle, by an angle of one over a length.
+/// @param points  3 by any, m.
+/// @param length  m; what is returned has no unit.
+/// @return 3 #points by 6.
+Eigen::MatrixXd rigidMotions(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& middle,
+                             double length);
+
 /// @param points      3 by #constraints, where displacements are prescribed.
 /// @param directions  3 by #constraints, unit vectors along which they are.
 /// @param bodySize    a length that scales rotations, such as the body's bounding-box diagonal.

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <map>
-#include <utility>
 #include <vector>
+
+#include "mesh/triangle_sides.h"
 
 namespace palpate::shell {
 namespace {
@@ -20,21 +20,17 @@ struct Edge {
 };
 
 std::vector<Edge> edgesWithin(const SurfaceMesh& mesh) {
-  std::map<std::pair<int, int>, int> firstOf;
   std::vector<Edge> edges;
-  for (int f = 0; f < mesh.triangleCount(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles()(k, f), mesh.triangles()((k + 1) % 3, f)});
-      const auto [entry, isNew] = firstOf.insert({{low, high}, f});
-      if (isNew) continue;
-      const Eigen::Vector3d own = mesh.triangleNormals().col(f),
-                            other = mesh.triangleNormals().col(entry->second),
-                            opposite = mesh.points().col(mesh.triangles()((k + 2) % 3, f));
-      const double angle = std::atan2(own.cross(other).norm(), own.dot(other));
-      const bool isHollow = other.dot(opposite - mesh.points().col(low)) > 0;
-      edges.push_back({low, high, isHollow ? -angle : angle});
-    }
+  forEachEdge(sortedSides(mesh.triangles()), [&](auto first, auto last) {
+    if (last - first != 2) return;
+    const Eigen::Vector3d
+        here = mesh.triangleNormals().col(first->triangle),
+        there = mesh.triangleNormals().col(first[1].triangle),
+        middle = mesh.points()(Eigen::all, mesh.triangles().col(first->triangle)).rowwise().mean();
+    const double angle = std::atan2(here.cross(there).norm(), here.dot(there));
+    const bool isHollow = there.dot(middle - mesh.points().col(first->low)) > 0;
+    edges.push_back({first->low, first->high, isHollow ? -angle : angle});
+  });
   return edges;
 }
 

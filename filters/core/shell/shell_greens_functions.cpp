@@ -33,22 +33,6 @@ shell::ShellResponse soundResponse(shell::ShellSystem system, const ElasticModel
   throw std::runtime_error(shell::roundingSentence(model, shell, defect));
 }
 
-/// From the units of the system to those of the model: per pascal or metre, as metres or pascals.
-void scaleToModel(const GreensFunctionsInfo& info, double length, Eigen::Ref<Eigen::MatrixXd> all) {
-  const double young = info.material.youngsModulus();
-  for (std::size_t c = 0; c < info.columnNodes.size(); ++c) {
-    const int node = info.columnNodes[c];
-    const bool ofDisplacement = info.conditions.isFixed(node);
-    const double perGiven =
-        ofDisplacement ? 1 / length : info.vertexAreas[node] / (young * length * length);
-    auto columns = all.middleCols<3>(3 * c);
-    for (int v = 0; v < info.conditions.nodeCount(); ++v)
-      columns.middleRows<3>(3 * v) *=
-          perGiven *
-          (info.conditions.isFixed(v) ? young * length * length / info.vertexAreas[v] : length);
-  }
-}
-
 std::string describeSource(const ElasticModel& model, const ThinShell& shell) {
   std::ostringstream text;
   text << "thin shell (DKT and OPT triangles, " << model.mesh().triangleCount()
@@ -84,7 +68,8 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
   Eigen::Map<Eigen::MatrixXd> matrix(result.matrix.data(), rows, columns);
   const shell::ShellResponse response = soundResponse(
       std::move(system), model, shell, info.columnNodes, matrix, progress.part(0.05, 0.95));
-  scaleToModel(info, length, matrix);
+  const double stiffness = info.material.youngsModulus();
+  scaleToModel(info, length, stiffness, perGivenOfNodes(info, length, stiffness), matrix);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;
   info.diagnostics.peakBytes = response.peakBytes + result.matrix.bytes();

@@ -4,8 +4,9 @@
 #include "shell/shell_response.h"
 
 #include <algorithm>
-#include <Eigen/Geometry>
 #include <utility>
+
+#include "model/support.h"
 
 namespace palpate::shell {
 namespace {
@@ -56,7 +57,7 @@ class Response {
   }
 
   double rigidMotionDefect() const {
-    const Eigen::MatrixXd all = rigidMotions();
+    const Eigen::MatrixXd all = motionsOfAll();
     Eigen::MatrixXd held(system_.heldCount(), 6), free(freeCount_, 6);
     for (Eigen::Index i = 0; i < all.rows(); ++i) {
       const int place = system_.place(i % 6, i / 6);
@@ -75,18 +76,15 @@ class Response {
   }
 
  private:
-  /// 6 #V by 6: three translations and three rotations about the middle of the mesh.
-  Eigen::MatrixXd rigidMotions() const {
+  /// 6 #V by 6: displacements and rotations, about the middle of the mesh.
+  Eigen::MatrixXd motionsOfAll() const {
     const Eigen::Matrix3Xd& points = model_.mesh().points();
-    const Eigen::Vector3d middle = points.rowwise().mean();
+    const Eigen::MatrixXd moved = rigidMotions(points, points.rowwise().mean(), system_.length);
     Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(6 * points.cols(), 6);
-    for (Eigen::Index v = 0; v < points.cols(); ++v)
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-        motions.block<3, 1>(6 * v, k) = axis;
-        motions.block<3, 1>(6 * v, 3 + k) = axis.cross((points.col(v) - middle) / system_.length);
-        motions.block<3, 1>(6 * v + 3, 3 + k) = axis;
-      }
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+      motions.middleRows<3>(6 * v) = moved.middleRows<3>(3 * v);
+      motions.block<3, 3>(6 * v + 3, 3).setIdentity();
+    }
     return motions;
   }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <sstream>
 
 #include "sentence.h"
 #include "shell/shell_curvature.h"
@@ -17,14 +16,6 @@ namespace {
 constexpr double kThickFrom = 0.2;      // of the piece's width, or the radius of curvature
 constexpr double kRoundingFrom = 1e-4;  // of a rigid motion
 constexpr double kNarrowBelow = 1.5;    // edges
-
-/// Three digits of a number.
-std::string shortly(double x) {
-  std::ostringstream text;
-  text.precision(3);
-  text << x;
-  return text.str();
-}
 
 /// One piece of the surface.
 struct Piece {

@@ -302,15 +302,11 @@ void setGreensFunctions(
 {
   const GreensFunctionsInfo& info = result.info;
   const int rows = 3 * model.mesh().vertexCount();
-  if (info.domain == Domain::HalfSpace)
-  {
-    // They are computed when they are asked for.
-  }
-  else if (result.floatMatrix.size() > 0)
+  if (result.floatMatrix.size() > 0)
   {
     addMatrix<vtkFloatArray>(surface, arrays::GreensFunctions, std::move(result.floatMatrix), rows);
   }
-  else
+  else if (info.domain != Domain::HalfSpace) // those are computed when they are asked for
   {
     addMatrix<vtkDoubleArray>(surface, arrays::GreensFunctions, std::move(result.matrix), rows);
   }

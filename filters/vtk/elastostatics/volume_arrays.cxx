@@ -267,17 +267,22 @@ CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
   {
     return { { Elasticity(otherwise) }, {} };
   }
+  std::vector<vtkDataArray*> present;
+  for (const MaterialArrays::Array& array : kind->arrays)
+  {
+    present.push_back(grid->GetCellData()->GetArray(array.name));
+  }
   CellMaterials result;
   std::map<MaterialKey, int> numbers;
   for (vtkIdType cell : tetrahedronCells(grid))
   {
     MaterialKey key{};
     int next = 0;
-    for (const MaterialArrays::Array& array : kind->arrays)
+    for (vtkDataArray* array : present)
     {
-      for (int c = 0; c < array.components; ++c)
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
       {
-        key[next++] = grid->GetCellData()->GetArray(array.name)->GetComponent(cell, c);
+        key[next++] = array->GetComponent(cell, c);
       }
     }
     for (double value : key)
