@@ -9,7 +9,6 @@
 #include <Eigen/Dense>
 
 #include "contact/capacitance_solver.h"
-#include "greens/gravity.h"
 #include "shell/shell_curvature.h"
 #include "shell/shell_element.h"
 #include "support/refusals.h"
@@ -247,12 +246,6 @@ TEST(ShellGreensFunctions, SayWhatTheyAre) {
   EXPECT_TRUE(greens->info().rotationsHeld);
   EXPECT_FALSE(
       shellProblem(plate(1, 4), cornersOfPlate, {0.01}, false).greens()->info().rotationsHeld);
-  EXPECT_TRUE(isRefused(
-      [&] {
-        const auto mesh = plate(1, 4).sheet();
-        gravityDisplacement(*greens, *mesh, Eigen::VectorXi::Zero(32), {0, 0, -1});
-      },
-      "the weight of a shell goes with its thickness"));
 }
 
 TEST(ShellGreensFunctions, OfColumnsThatWereAskedForAlone) {

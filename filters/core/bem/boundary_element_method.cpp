@@ -14,9 +14,11 @@
 #include "bem/exchanged_system.h"
 #include "greens/dense_greens_functions.h"
 #include "greens/reciprocity.h"
+#include "greens/rigid_motions.h"
 #include "linear_algebra/dense_lu.h"
 #include "linear_algebra/iterative_solve.h"
 #include "linear_algebra/multi_precision_solve.h"
+#include "model/support.h"
 #include "parallel.h"
 #include "stopwatch.h"
 
@@ -103,6 +105,7 @@ class Precomputation {
     bem::ExchangedSystem<Scalar> system =
         bem::assembleSystem<Scalar>(body, scheme, columns.wanted, options_.tolerance, threads,
                                     progress.part(0, kAssembleShare));
+    if (model_.domain() == Domain::Unsupported) holdRigidMotions(body, system);
     addSeconds(diagnostics, "assemble", watch.seconds());
 
     const BlasThreads blasThreads(threads);
@@ -118,6 +121,20 @@ class Precomputation {
     averageTractions(body, scheme, system);
     scaleToModel(body, columns, system);
     scatter(body, columns, system);
+  }
+
+  /// Without support H has the rigid motions R for its null space: H + R (R^T A R)^-1 R^T A is
+  /// regular, and solves for balanced loads as H does.
+  static void holdRigidMotions(const BodySurface& body, bem::ExchangedSystem<Scalar>& system) {
+    Eigen::VectorXd areas = Eigen::VectorXd::Zero(body.vertexCount());
+    for (int node = 0; node < body.nodes.count(); ++node)
+      areas[body.nodes.vertex[node]] += body.nodes.area[node];
+    const Eigen::MatrixXd motions = rigidMotions(body.points, body.points.rowwise().mean(), 1);
+    const Eigen::MatrixXd mean = meanRigidMotion(areas, motions);
+    Columns matrix(system.matrix.data(), system.size, system.size,
+                   Eigen::OuterStride<>(system.stride));
+    for (int i = 0; i < system.size; ++i)
+      matrix.row(system.diagonalRows[i]) += (motions.row(i) * mean).template cast<Scalar>();
   }
 
   SolveReport solve(bem::ExchangedSystem<Scalar>& system, const Progress& progress) const {
@@ -221,7 +238,9 @@ std::string describeSource(const ElasticModel& model, const BoundaryElementOptio
   std::ostringstream text;
   text << "boundary elements (linear triangles, "
        << (options.collocation == Collocation::Vertex ? "vertex" : "averaged") << " collocation), "
-       << (model.domain() == Domain::Exterior ? "exterior" : "interior") << " domain, "
+       << (model.domain() == Domain::Exterior      ? "exterior domain, "
+           : model.domain() == Domain::Unsupported ? "interior domain, unsupported, "
+                                                   : "interior domain, ")
        << precisions[static_cast<int>(options.precision)] << " precision, "
        << (options.solver == LinearSolver::Iterative ? "iterative solver, " : "")
        << "integration tolerance " << options.tolerance << ", "
@@ -260,6 +279,10 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
             const ElasticModel& model, const BoundaryElementOptions& options,
             GreensFunctionsInfo& info) {
   Stopwatch watch;
+  if (model.domain() == Domain::Unsupported) {
+    const Eigen::MatrixXd motions = rigidMotionsOfBodies(model.mesh());
+    removeRigidMotions(matrix.data(), info.vertexAreas, motions, motions);
+  }
   const std::size_t block = 9 * std::size_t(model.mesh().vertexCount());
   if (!info.patchColumns.empty()) {
     patchMatrix = AlignedBuffer<Scalar>(block * info.patchColumns.size());
@@ -272,7 +295,7 @@ void finish(AlignedBuffer<Scalar>& matrix, AlignedBuffer<Scalar>& patchMatrix,
   const double keptShare =
       std::clamp((model.material().poissonRatio() - 0.45) / (0.49 - 0.45), 0.0, 1.0);
   std::vector<Eigen::Matrix3Xd> kept;
-  if (model.domain() == Domain::Interior && keptShare > 0) kept = unitPressures(model.mesh());
+  if (model.domain() != Domain::Exterior && keptShare > 0) kept = unitPressures(model.mesh());
   info.diagnostics.reciprocityDefect =
       makeReciprocal(matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
                      options.reciprocal, kept, keptShare);
@@ -320,6 +343,8 @@ ComputedGreensFunctions computeBoundaryElementGreensFunctions(const ElasticModel
       modelWarnings(model, info.diagnostics.wallRatio, info.diagnostics.supportWidth);
   requireDeterminedPressure(model, info.columnNodes);
 
+  if (model.domain() == Domain::Unsupported)
+    requireAllColumns(options.columns, options.patchColumns);
   const Progress whole(progress);
   const Progress own = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
   if (options.precision == Precision::Float) {

@@ -12,6 +12,7 @@
 #include "fem/surface_response.h"
 #include "greens/error_estimate.h"
 #include "greens/reciprocity.h"
+#include "greens/rigid_motions.h"
 #include "mesh/surface_locator.h"
 #include "stopwatch.h"
 
@@ -46,6 +47,7 @@ std::vector<WantedColumn> wantedColumns(const GreensFunctionsInfo& info,
     for (std::size_t h = 0; h < hats.size(); ++h)
       if (hats[h].vertex == column.node && hats[h].patch == column.patch)
         wanted.push_back({WantedColumn::Traction, static_cast<int>(h)});
+  if (info.domain == Domain::Interior) wanted.push_back({WantedColumn::Load, 0});
   return wanted;
 }
 
@@ -101,21 +103,25 @@ ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& fil
         mesh->points()(Eigen::all, mesh->triangles().col(f)).rowwise().mean();
     patches[f] = model.smoothPatches()[locator.nearest(middle).triangle];
   }
-  return ElasticModel(mesh, model.material(), model.conditions(), std::move(patches));
+  return ElasticModel(mesh, model.material(), model.conditions(), std::move(patches),
+                      model.domain());
 }
 
 ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& model,
                                                             const SolidBody& body,
                                                             const FiniteElementOptions& options,
                                                             const ProgressCallback& callback) {
-  if (model.domain() != Domain::Interior)
+  if (model.domain() != Domain::Interior && model.domain() != Domain::Unsupported)
     throw std::invalid_argument("finite elements fill the inside of a surface, no other domain");
+  if (model.domain() == Domain::Unsupported)
+    requireAllColumns(options.columns, options.patchColumns);
   const Progress whole(callback);
   const Progress progress = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
   ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
   info.homogeneous = body.isOf(model.material());
+  info.density = body.density();
   info.source = describeSource(body, options.element);
   info.reciprocal = options.reciprocal;
   info.diagnostics.warnings =
@@ -137,7 +143,8 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   fem::SurfaceResponse response =
       fem::surfaceResponse(std::move(system), model, wanted, shares, progress.part(0.1, 0.95));
   std::vector<double> perGiven = perGivenOfNodes(info, length, stiffness);
-  perGiven.resize(wanted.size(), 1 / stiffness);  // tractions on single patches come last
+  perGiven.resize(perGiven.size() + info.patchColumns.size(), 1 / stiffness);
+  if (info.domain == Domain::Interior) perGiven.push_back(length / stiffness);  // of the weight
   scaleToModel(info, length, stiffness, perGiven, response.columns);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;
@@ -146,11 +153,17 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   const Eigen::Index ownColumns = 3 * info.columnNodes.size();
   result.matrix = taken(response.columns.leftCols(ownColumns));
   if (!info.patchColumns.empty())
-    result.patchMatrix = taken(response.columns.rightCols(3 * info.patchColumns.size()));
+    result.patchMatrix =
+        taken(response.columns.middleCols(ownColumns, 3 * info.patchColumns.size()));
+  if (info.domain == Domain::Interior) info.weightResponse = response.columns.rightCols<3>();
+  if (info.domain == Domain::Unsupported)
+    removeRigidMotions(result.matrix.data(), info.vertexAreas, response.displacedMotions,
+                       response.loadedMotions);
   info.diagnostics.reciprocityDefect =
       makeReciprocal(result.matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
                      options.reciprocal);
-  info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
+  if (info.domain == Domain::Interior)
+    info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
   addSeconds(info.diagnostics, "check", watch.seconds());
   if (options.estimateError && body.materialCount() == 1) {
     info.diagnostics.error = estimateError(model, estimatedMethod(options, body.material(0)),

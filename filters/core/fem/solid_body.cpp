@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -35,11 +36,13 @@ std::array<int, 3> fromLowest(std::array<int, 3> corners) {
 }  // namespace
 
 SolidBody::SolidBody(const SurfaceMesh& surface, TetrahedralMesh mesh,
-                     std::vector<Elasticity> materials, std::vector<int> materialOfCell)
+                     std::vector<Elasticity> materials, std::vector<int> materialOfCell,
+                     Eigen::VectorXd densities)
     : mesh_(std::move(mesh)),
       materials_(std::move(materials)),
       materialOfCell_(std::move(materialOfCell)),
-      pointOfVertex_(pointsAt(surface, mesh_)) {
+      pointOfVertex_(pointsAt(surface, mesh_)),
+      densities_(std::move(densities)) {
   const std::size_t numbers = materialOfCell_.size();
   if (materials_.empty() || (numbers != 0 && numbers != std::size_t(mesh_.cellCount())) ||
       (numbers == 0 && materials_.size() > 1))
@@ -49,6 +52,21 @@ SolidBody::SolidBody(const SurfaceMesh& surface, TetrahedralMesh mesh,
     if (materialOfCell_[cell] < 0 || materialOfCell_[cell] >= materialCount())
       refuse("tetrahedron ", cell, " has no material");
   requireBoundary(surface);
+  if (densities_.size() > 0) weigh();
+}
+
+void SolidBody::weigh() {
+  if (densities_.size() != mesh_.cellCount())
+    refuse("there are ", densities_.size(), " densities for ", mesh_.cellCount(), " tetrahedra");
+  double mass = 0, volume = 0;
+  for (int cell = 0; cell < mesh_.cellCount(); ++cell) {
+    if (!(densities_[cell] > 0 && std::isfinite(densities_[cell])))
+      refuse("the density of tetrahedron ", cell, " must be positive, not ", densities_[cell]);
+    const double part = mesh_.volumes()[cell];
+    mass += densities_[cell] * part;
+    volume += part;
+  }
+  density_ = mass / volume;
 }
 
 void SolidBody::requireBoundary(const SurfaceMesh& surface) const {

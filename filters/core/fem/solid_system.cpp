@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <Eigen/Geometry>
 #include <stdexcept>
+
+#include "greens/rigid_motions.h"
 
 namespace palpate::fem {
 namespace {
@@ -44,6 +47,28 @@ class NodeBlocks {
   std::vector<Eigen::Matrix3d> blocks_;
 };
 
+/// Six springs that hold a body and no more: three at the vertex that is farthest from its middle,
+/// two at the one farthest from there, one at that farthest from the line through both.
+std::vector<std::pair<int, Eigen::Vector3d>> determinateSprings(const SurfaceMesh& mesh, int body) {
+  std::vector<int> vertices;
+  for (int v = 0; v < mesh.vertexCount(); ++v)
+    if (mesh.bodyOfVertex(v) == body) vertices.push_back(v);
+  const auto farthest = [&](const auto& distance) {
+    return *std::max_element(vertices.begin(), vertices.end(),
+                             [&](int a, int b) { return distance(a) < distance(b); });
+  };
+  const Eigen::Vector3d middle = mesh.points()(Eigen::all, vertices).rowwise().mean();
+  const auto point = [&](int v) -> Eigen::Vector3d { return mesh.points().col(v); };
+  const int first = farthest([&](int v) { return (point(v) - middle).norm(); });
+  const int second = farthest([&](int v) { return (point(v) - point(first)).norm(); });
+  const Eigen::Vector3d along = (point(second) - point(first)).normalized();
+  const int third = farthest([&](int v) { return along.cross(point(v) - point(first)).norm(); });
+  const Eigen::Vector3d normal = along.cross(point(third) - point(first)).normalized();
+  return {{first, Eigen::Vector3d::UnitX()}, {first, Eigen::Vector3d::UnitY()},
+          {first, Eigen::Vector3d::UnitZ()}, {second, normal},
+          {second, normal.cross(along)},     {third, normal}};
+}
+
 int groupOf(const SolidBody& body, int cell) {
   return body.materialCount() <= kMostPressureGroups ? body.materialNumber(cell) : 0;
 }
@@ -64,7 +89,11 @@ SolidSystem::SolidSystem(const ElasticModel& model, const SolidBody& body, Solid
         "use quadratic ones");
   placeNodes(model, body, nodes);
   addCells(body, nodes, element, progress);
-  addLoads(model, body, nodes);
+  addHats(model, body, nodes);
+  if (model.domain() == Domain::Unsupported)
+    addSprings(model.mesh(), body);
+  else
+    addWeight(body, nodes, element);
 }
 
 void SolidSystem::placePressures(const SolidBody& body) {
@@ -168,8 +197,43 @@ void SolidSystem::addCells(const SolidBody& body, const SolidNodes& nodes, Solid
   }
 }
 
-void SolidSystem::addLoads(const ElasticModel& model, const SolidBody& body,
-                           const SolidNodes& nodes) {
+void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, SolidElement element) {
+  loadCount = 3;
+  std::vector<double> weights(nodes.count, 0);  // of each node, as of one at its place
+  const double corner = element == SolidElement::Linear ? 1.0 / 4 : -1.0 / 20, middle = 1.0 / 5;
+  for (int cell = 0; cell < body.mesh().cellCount(); ++cell) {
+    const double weight =
+        body.relativeDensity(cell) * body.mesh().volumes()[cell] / (length * length * length);
+    for (int i = 0; i < nodes.perCell(); ++i)
+      weights[nodes.cells(i, cell)] += weight * (i < 4 ? corner : middle);
+  }
+  for (int node = 0; node < nodes.count; ++node)
+    for (int end = 0; end < places_[node].count(); ++end)
+      for (int k = 0; k < 3; ++k)
+        entries.add(entries.size + k, places_[node].place[end] + k,
+                    -places_[node].weight() * weights[node]);
+  entries.size += loadCount;
+}
+
+void SolidSystem::addSprings(const SurfaceMesh& mesh, const SolidBody& body) {
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh);
+  loadCount = static_cast<int>(motions.cols());
+  for (int k = 0; k < mesh.bodyCount(); ++k)
+    for (const auto& [vertex, direction] : determinateSprings(mesh, k)) {
+      const int place = places_[body.pointOfVertex(vertex)].place[0];
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) entries.add(place + i, place + j, direction[i] * direction[j]);
+        const Eigen::RowVectorXd load =
+            direction[i] * (direction.transpose() * motions.middleRows<3>(3 * vertex));
+        for (int m = 0; m < loadCount; ++m)
+          if (load[m] != 0) entries.add(entries.size + m, place + i, -load[m]);
+      }
+    }
+  entries.size += loadCount;
+}
+
+void SolidSystem::addHats(const ElasticModel& model, const SolidBody& body,
+                          const SolidNodes& nodes) {
   const SurfaceMesh& mesh = model.mesh();
   std::vector<std::vector<int>> hatsOf(mesh.vertexCount());
   for (std::size_t h = 0; h < hats.size(); ++h)

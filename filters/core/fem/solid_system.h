@@ -32,18 +32,26 @@ struct LoadHat {
 ///     [ L^T  .       0       - ] [-t ]      mean displacements m = L^T u + L_w^T w, m^2 m
 ///     [ K_w  D_w    L_w   K_ww ] [ w ]      reactions        f = K_w^T u + K_ww w - L_w t
 /// so that the Schur complement of what is kept maps (-t, w) to (m, f).
+///
+/// Kept after these are factors of loads on all nodes, whose columns tell what they do. Where
+/// something is fixed they are the body's weight along the three axes. Unsupported bodies are held
+/// by six springs each, no more than determine where a rigid body is, so that loads that balance
+/// each other put no force on them; the loads are those that displace the bodies rigidly.
 struct SolidSystem {
   /// @param hats  of free vertices.
   SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
               std::vector<LoadHat> hats, const Progress& progress);
 
-  int keptCount() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
+  int keptCount() const { return loadRow() + loadCount; }
+  /// The kept row of the first load.
+  int loadRow() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
   int unknownCount() const { return entries.size - keptCount(); }
 
   double length, stiffness;        ///< units, m and Pa
   std::vector<LoadHat> hats;       ///< kept first, three numbers each
   std::vector<int> fixedVertices;  ///< then these, ascending, likewise
   int pressureCount = 0;
+  int loadCount = 0;
   SymmetricEntries entries;  ///< unknowns, then what is kept
   /// #V by #V: integrals of the products of two vertices' hats, in squared lengths of the body.
   Eigen::SparseMatrix<double> hatProducts;
@@ -60,7 +68,9 @@ struct SolidSystem {
   void placePressures(const SolidBody& body);
   void addCells(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
                 const Progress& progress);
-  void addLoads(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
+  void addWeight(const SolidBody& body, const SolidNodes& nodes, SolidElement element);
+  void addSprings(const SurfaceMesh& mesh, const SolidBody& body);
+  void addHats(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
   int pressurePlace(const SolidBody& body, int cell, int corner) const;
 
   std::vector<NodePlace> places_;

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCholesky>
 #include <utility>
 
+#include "greens/rigid_motions.h"
 #include "model/support.h"
 #include "sentence.h"
 
@@ -52,12 +53,12 @@ class Condensation {
   SurfaceResponse run(const std::vector<WantedColumn>& wanted, const Progress& progress) {
     const int columns = 3 * static_cast<int>(wanted.size());
     SurfaceResponse response;
-    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), 6);
-    given.bottomRows(3 * system_.fixedVertices.size()) = motionsOf(system_.fixedVertices);
+    const Eigen::MatrixXd given = movedRigidly();
+    const Eigen::Index motions = given.cols();
     Eigen::MatrixXd answer;
     progress.report(0, "factor");
     if (kColumnsWorthSchur * columns < system_.keptCount()) {
-      Eigen::MatrixXd all(system_.keptCount(), columns + 6);
+      Eigen::MatrixXd all(system_.keptCount(), columns + motions);
       all << whatIsGiven(wanted), given;
       answer = solved(all, response.peakBytes, progress);
     } else {
@@ -67,14 +68,17 @@ class Condensation {
       response.peakBytes =
           factored.peakBytes() + 2 * sizeof(double) * factored.schurComplement().size();
       progress.report(0.9, "condense");
-      answer.resize(system_.keptCount(), columns + 6);
+      answer.resize(system_.keptCount(), columns + motions);
       answer.leftCols(columns) = appliedTo(factored.schurComplement(), wanted);
-      answer.rightCols<6>().noalias() = factored.schurComplement() * given;
+      answer.rightCols(motions).noalias() = factored.schurComplement() * given;
     }
-    response.rigidMotionDefect = defectOf(answer.rightCols<6>());
+    response.rigidMotionDefect = defectOf(answer.rightCols(motions));
     requireRigidMotions(response.rigidMotionDefect);
     answer.conservativeResize(Eigen::NoChange, columns);
     response.columns = atVertices(answer, wanted);
+    if (isHeld()) return response;
+    response.displacedMotions = shownMotions(shares_.displacement);
+    response.loadedMotions = shownMotions(shares_.load);
     return response;
   }
 
@@ -101,13 +105,36 @@ class Condensation {
     shared_ = products_.solve(Eigen::MatrixXd(toFixed_));
   }
 
+  /// By fixed vertices, and not by springs.
+  bool isHeld() const { return !system_.fixedVertices.empty(); }
+
   /// 3 #vertices by 6, about the middle of the mesh.
   Eigen::MatrixXd motionsOf(const std::vector<int>& vertices) const {
     const Eigen::Matrix3Xd& points = mesh_.points();
     return rigidMotions(points(Eigen::all, vertices), points.rowwise().mean(), system_.length);
   }
 
-  /// kept by 3 #wanted: (-t, w) of each column.
+  /// What is given, (-t, w, loads), where the body is moved rigidly by what holds it.
+  Eigen::MatrixXd movedRigidly() const {
+    const Eigen::Index motions = isHeld() ? 6 : system_.loadCount;
+    Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), motions);
+    if (isHeld())
+      given.middleRows(hatRows_, 3 * system_.fixedVertices.size()) =
+          motionsOf(system_.fixedVertices);
+    else
+      given.bottomRows(motions).setIdentity();
+    return given;
+  }
+
+  /// R of rigid motions of bodies that nothing holds.
+  Eigen::MatrixXd shownMotions(double share) const {
+    Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh_);
+    for (int k = 0; k < 3; ++k)
+      component(motions, k) = weighted(share, system_.hatProducts * component(motions, k));
+    return motions;
+  }
+
+  /// kept by 3 #wanted: (-t, w, loads) of each column.
   Eigen::MatrixXd whatIsGiven(const std::vector<WantedColumn>& wanted) const {
     Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), 3 * wanted.size());
     for (std::size_t c = 0; c < wanted.size(); ++c) {
@@ -116,6 +143,8 @@ class Condensation {
       };
       if (wanted[c].kind == WantedColumn::Traction) {
         set(3 * wanted[c].index, -1);
+      } else if (wanted[c].kind == WantedColumn::Load) {
+        set(system_.loadRow(), 1);
       } else if (wanted[c].kind == WantedColumn::Displacement) {
         set(hatRows_ + 3 * fixedNumber_[wanted[c].index], 1);
       } else {
@@ -160,6 +189,8 @@ class Condensation {
           answer.col(3 * c + k) = -ofForces.row(freeNumber_[index]).transpose();
         else if (wanted[c].kind == WantedColumn::Traction)
           answer.col(3 * c + k) = -schur.col(3 * index + k);
+        else if (wanted[c].kind == WantedColumn::Load)
+          answer.col(3 * c + k) = schur.col(system_.loadRow() + k);
         else
           answer.col(3 * c + k) = schur.col(hatRows_ + 3 * fixedNumber_[index] + k);
       }
@@ -236,13 +267,14 @@ class Condensation {
 
   /// By the displacements nearest in the mean square, in which rigid motions are exact.
   double defectOf(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
-    const Eigen::MatrixXd expected = motionsOf(free_);
+    const Eigen::MatrixXd expected = isHeld() ? motionsOf(free_) : rigidMotionsOfBodies(mesh_);
     const Eigen::MatrixXd held = motionsOf(system_.fixedVertices);
     const Eigen::MatrixXd means = meansUnderHats(answer);
     double largest = 0;
     for (int k = 0; k < 3; ++k) {
-      const Eigen::MatrixXd found =
-          products_.solve(component(means, k) - toFixed_ * component(held, k));
+      Eigen::MatrixXd shown = component(means, k);
+      if (isHeld()) shown -= toFixed_ * component(held, k);
+      const Eigen::MatrixXd found = products_.solve(shown);
       largest = std::max(largest, (found - component(expected, k)).cwiseAbs().maxCoeff());
     }
     return largest / expected.cwiseAbs().maxCoeff();

@@ -17,18 +17,22 @@ struct WantedColumn {
     Force,         ///< of a free vertex
     Traction,      ///< on one load hat
     Displacement,  ///< of a fixed vertex
+    Load,          ///< on all nodes, of a system that is held: its weight
   };
   Kind kind;
-  int index;  ///< of the vertex, or of the hat
+  int index;  ///< of the vertex, or of the hat; 0 for the load
 };
 
 /// How a solid body answers at the vertices of its surface, in the units of its system.
 struct SurfaceResponse {
   /// 3 #V by 3 #wanted: displacements where free, reactions where fixed, per unit of what is given.
   Eigen::MatrixXd columns;
-  /// The largest relative error of displacements where the fixed vertices move rigidly: of the
-  /// solution's rounding.
+  /// The largest relative error of displacements where the fixed vertices, or the springs of
+  /// unsupported bodies, move rigidly: of the solution's rounding.
   double rigidMotionDefect = -1;
+  /// 3 #V by 6 #bodies where nothing is fixed, rigidMotionsOfBodies as displacements show them and
+  /// as the resultants of forces have them.
+  Eigen::MatrixXd displacedMotions, loadedMotions;
   std::size_t peakBytes = 0;
 };
 

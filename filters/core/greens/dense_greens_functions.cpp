@@ -123,6 +123,8 @@ std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsM
   scaledInfo.material = Material(youngsModulus, info().material.poissonRatio());
   if (scaledInfo.diagnostics.rockingCompliance > 0)
     scaledInfo.diagnostics.rockingCompliance /= factor;
+  for (int node = 0; node < nodeCount() && scaledInfo.weightResponse.size() > 0; ++node)
+    if (!isFixed(node)) scaledInfo.weightResponse.middleRows<3>(3 * node) /= factor;
   auto scaled = std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_,
                                                                patchMatrix_, keeper_);
   scaled->stiffnessScale_ = stiffnessScale_ * factor;

@@ -20,30 +20,27 @@ Eigen::Vector3d middleOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
   return area > 0 ? Eigen::Vector3d(sum / area) : sum;
 }
 
-}  // namespace
-
-Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
-                                     const Eigen::VectorXi& patches,
-                                     const Eigen::Vector3d& weight) {
-  const GreensFunctionsInfo& info = greens.info();
+/// @throws if the weight cannot be told from the surface.
+void requireKnown(const GreensFunctionsInfo& info) {
+  const char* reason = nullptr;
   if (info.domain == Domain::Given)
-    throw std::invalid_argument(
-        "the weight of what a given matrix is of is not known from its surface");
-  if (info.domain != Domain::Interior)
-    throw std::invalid_argument(
-        info.domain == Domain::HalfSpace
-            ? "the weight of a half-space is infinite: it sinks without end under its own"
-        : info.domain == Domain::Shell
-            ? "the weight of a shell goes with its thickness, which its Green's functions do not "
-              "know: give it as tractions, density times thickness times gravity"
-            : "the space around a surface has no weight that it could bear");
-  if (!info.homogeneous)
-    throw std::invalid_argument(
-        "the weight of a body of several materials, or of one that is not isotropic, is not known "
-        "from "
-        "its surface");
+    reason = "the weight of what a given matrix is of is not known from its surface";
+  else if (info.domain == Domain::HalfSpace)
+    reason = "the weight of a half-space is infinite: it sinks without end under its own";
+  else if (info.domain == Domain::Exterior)
+    reason = "the space around a surface has no weight that it could bear";
+  else if (info.domain == Domain::Unsupported)
+    reason = "what nothing holds falls freely, and its weight does not deform it";
+  else if (info.domain == Domain::Shell || !info.homogeneous)
+    reason = "this model does not know what its weight does: compute its Green's functions again";
+  if (reason) throw std::invalid_argument(reason);
+}
+
+/// Under one weight; zero where fixed.
+Eigen::Matrix3Xd displacementUnder(const Eigen::Vector3d& weight, const GreensFunctions& greens,
+                                   const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
+  const GreensFunctionsInfo& info = greens.info();
   const std::vector<int> fixed = info.conditions.fixedNodes(), free = info.conditions.freeNodes();
-  greens.requireColumns(nodeList(free));
   const Eigen::Vector3d origin = middleOf(greens, mesh, fixed);
   const Eigen::Vector3d c =
       -(1 - 2 * info.material.poissonRatio()) / info.material.youngsModulus() * weight;
@@ -70,6 +67,29 @@ Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const Surfac
         particular(node) - reactions.transpose() * moved / greens.vertexArea(node);
   }
   for (int node : fixed) displacement.col(node).setZero();
+  return displacement;
+}
+
+}  // namespace
+
+Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                               const Eigen::VectorXi& patches) {
+  const GreensFunctionsInfo& info = greens.info();
+  if (info.weightResponse.size() > 0) return info.weightResponse;
+  requireKnown(info);
+  greens.requireColumns(nodeList(info.conditions.freeNodes()));
+  Eigen::MatrixXd response(3 * mesh.vertexCount(), 3);
+  for (int k = 0; k < 3; ++k)
+    response.col(k) = displacementUnder(Eigen::Vector3d::Unit(k), greens, mesh, patches).reshaped();
+  return response;
+}
+
+Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                     const Eigen::VectorXi& patches,
+                                     const Eigen::Vector3d& weight) {
+  Eigen::Matrix3Xd displacement =
+      (weightResponse(greens, mesh, patches) * weight).reshaped(3, mesh.vertexCount());
+  for (int node : greens.info().conditions.fixedNodes()) displacement.col(node).setZero();
   return displacement;
 }
 

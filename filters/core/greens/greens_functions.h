@@ -41,7 +41,12 @@ struct GreensFunctionsInfo {
   std::vector<PatchColumn> patchColumns;  ///< extra columns, in storage order
   std::uint64_t fingerprint = 0;          ///< ElasticModel::fingerprint()
   bool reciprocal = false;  ///< the free-free blocks are symmetric as force compliances
-  std::string source;       ///< method, options and version, for people
+  /// 3 #nodes by 3: what a weight of 1 N/m^3 along each axis does, metres where free and pascals
+  /// where fixed (of a body of several densities: in the mean over its volume). Empty where it was
+  /// not computed.
+  Eigen::MatrixXd weightResponse;
+  double density = 0;  ///< kg/m^3, in the mean; 0 where it is not known
+  std::string source;  ///< method, options and version, for people
   Diagnostics diagnostics;
 };
 

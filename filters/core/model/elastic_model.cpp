@@ -33,13 +33,16 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
     text << "the model has no free node: there is nothing that could be touched";
   if (!text.str().empty()) throw std::invalid_argument(text.str());
 
-  if (domain_ == Domain::HalfSpace)
-    requireHalfSpace();
-  else if (mesh_->rims() == Rims::Allowed && rimsOf(domain_) == Rims::Refused)
+  if (domain_ == Domain::HalfSpace) {
+    planeOf(*mesh_);
+    requireNoneFixed("a half-space needs no support and has nothing to hold it by");
+  } else if (mesh_->rims() == Rims::Allowed && rimsOf(domain_) == Rims::Refused) {
     throw std::invalid_argument(
         "a sheet with rims bounds a half-space, is a shell's middle or belongs to a given matrix, "
         "it "
         "bounds no other domain");
+  }
+  if (domain_ == Domain::Unsupported) requireNoneFixed("nothing holds an unsupported body");
   if (domain_ == Domain::Interior) requireSupport(*mesh_, conditions_);
   for (int shell = 0; domain_ == Domain::Exterior && shell < mesh_->shellCount(); ++shell)
     if (mesh_->isCavity(shell))
@@ -47,13 +50,11 @@ ElasticModel::ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material mat
           "in an exterior domain no surface may lie inside another: the material is outside all");
 }
 
-void ElasticModel::requireHalfSpace() const {
-  planeOf(*mesh_);
+void ElasticModel::requireNoneFixed(const char* reason) const {
   const std::vector<int> fixed = conditions_.fixedNodes();
   if (fixed.empty()) return;
-  throw std::invalid_argument("vertex " + std::to_string(fixed.front()) +
-                              " is fixed: a half-space needs no support and has nothing to hold it "
-                              "by, leave all vertices free");
+  throw std::invalid_argument("vertex " + std::to_string(fixed.front()) + " is fixed: " + reason +
+                              ", leave all vertices free");
 }
 
 std::uint64_t ElasticModel::fingerprint() const {
@@ -83,8 +84,9 @@ std::vector<std::string> modelWarnings(const ElasticModel& model, double& wallRa
                                        double& supportWidth) {
   constexpr double thinFrom = 0.5, veryThinFrom = 1.5;
   std::vector<std::string> warnings;
-  const WallRatio wall =
-      model.domain() == Domain::Interior ? largestWallRatio(model.mesh()) : WallRatio{};
+  const WallRatio wall = model.domain() == Domain::Interior || model.domain() == Domain::Unsupported
+                             ? largestWallRatio(model.mesh())
+                             : WallRatio{};
   wallRatio = wall.ratio;
   if (wallRatio > veryThinFrom)
     warnings.push_back(sentence(

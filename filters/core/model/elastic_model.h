@@ -17,15 +17,18 @@ namespace palpate {
 /// Which side of the surface the material fills.
 enum class Domain {
   Interior,
-  Exterior,   ///< infinite space around the surface; needs no support, as displacements fade away
-  HalfSpace,  ///< all below the plane that the surface is a part of; needs no support
-  Shell,      ///< a thin layer about the surface, its middle; what holds it, ThinShell says
-  Given,      ///< whatever a given matrix is of: holds itself, and the surface may have rims
+  Exterior,     ///< infinite space around the surface; needs no support, as displacements fade away
+  HalfSpace,    ///< all below the plane that the surface is a part of; needs no support
+  Shell,        ///< a thin layer about the surface, its middle; what holds it, ThinShell says
+  Given,        ///< whatever a given matrix is of: holds itself, and the surface may have rims
+  Unsupported,  ///< inside, and nothing holds the body: see removeRigidMotions
 };
 
 /// Whether the surface of a domain may end.
 constexpr Rims rimsOf(Domain domain) {
-  return domain == Domain::Interior || domain == Domain::Exterior ? Rims::Refused : Rims::Allowed;
+  return domain == Domain::Interior || domain == Domain::Exterior || domain == Domain::Unsupported
+             ? Rims::Refused
+             : Rims::Allowed;
 }
 
 /// A reference boundary value problem: surface, material, and what is given where ([JP01] section
@@ -36,8 +39,9 @@ class ElasticModel {
   ///                       (see findSmoothPatches).
   /// @throws std::invalid_argument if sizes differ, if no node is free, if the support leaves a
   ///         rigid motion of an interior domain's body free, if an exterior domain has nested
-  ///         shells, if a surface of those has rims, or if a half-space has a fixed node or a
-  ///         surface that is not flat (planeOf). A shell's support is for ThinShell to check.
+  ///         shells, if a surface of those has rims, if a half-space or an unsupported body has a
+  ///         fixed node, or if a half-space has a surface that is not flat (planeOf). A shell's
+  ///         support is for ThinShell to check.
   ElasticModel(std::shared_ptr<const SurfaceMesh> mesh, Material material,
                BoundaryConditions conditions, Eigen::VectorXi smoothPatches,
                Domain domain = Domain::Interior);
@@ -53,7 +57,7 @@ class ElasticModel {
   std::uint64_t fingerprint() const;
 
  private:
-  void requireHalfSpace() const;
+  void requireNoneFixed(const char* reason) const;
 
   std::shared_ptr<const SurfaceMesh> mesh_;
   Material material_;

@@ -66,10 +66,12 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
   const Eigen::Index rows = 3 * model.mesh().vertexCount(), columns = 3 * info.columnNodes.size();
   result.matrix = AlignedBuffer<double>(rows * columns);
   Eigen::Map<Eigen::MatrixXd> matrix(result.matrix.data(), rows, columns);
-  const shell::ShellResponse response = soundResponse(
-      std::move(system), model, shell, info.columnNodes, matrix, progress.part(0.05, 0.95));
+  shell::ShellResponse response = soundResponse(std::move(system), model, shell, info.columnNodes,
+                                                matrix, progress.part(0.05, 0.95));
   const double stiffness = info.material.youngsModulus();
   scaleToModel(info, length, stiffness, perGivenOfNodes(info, length, stiffness), matrix);
+  scaleToModel(info, length, stiffness, {length / stiffness}, response.ofWeight);
+  info.weightResponse = std::move(response.ofWeight);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;
   info.diagnostics.peakBytes = response.peakBytes + result.matrix.bytes();

@@ -46,14 +46,22 @@ class Response {
     }
     Eigen::MatrixXd reactions = system_.heldFree * free;
     if (!held.isZero(0)) reactions += system_.heldHeld * held;
-    for (Eigen::Index c = 0; c < out.cols(); ++c)
-      for (int v = 0; v < model_.mesh().vertexCount(); ++v)
-        for (int k = 0; k < 3; ++k) {
-          const int place = system_.place(k, v);
-          out(3 * v + k, c) = place >= 0                       ? free(place, c)
-                              : model_.conditions().isFixed(v) ? reactions(-1 - place, c)
-                                                               : 0;
-        }
+    spread(free, reactions, out);
+  }
+
+  Eigen::MatrixXd ofWeight() const {
+    Eigen::MatrixXd free = Eigen::MatrixXd::Zero(freeCount_, 3);
+    Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(system_.heldCount(), 3);
+    const int count = model_.mesh().vertexCount();
+    for (int v = 0; v < count; ++v)
+      for (int k = 0; k < 3; ++k) {
+        const int place = system_.place(k, v);
+        (place >= 0 ? free(place, k) : carried(-1 - place, k)) = system_.volumes[v];
+      }
+    factored_.solve(free);
+    Eigen::MatrixXd out(3 * count, 3);
+    spread(free, system_.heldFree * free - carried, out);
+    return out;
   }
 
   double rigidMotionDefect() const {
@@ -76,6 +84,19 @@ class Response {
   }
 
  private:
+  /// To vertices: displacements of what is free, reactions of fixed vertices.
+  void spread(const Eigen::MatrixXd& free, const Eigen::MatrixXd& reactions,
+              Eigen::Ref<Eigen::MatrixXd> out) const {
+    for (Eigen::Index c = 0; c < out.cols(); ++c)
+      for (int v = 0; v < model_.mesh().vertexCount(); ++v)
+        for (int k = 0; k < 3; ++k) {
+          const int place = system_.place(k, v);
+          out(3 * v + k, c) = place >= 0                       ? free(place, c)
+                              : model_.conditions().isFixed(v) ? reactions(-1 - place, c)
+                                                               : 0;
+        }
+  }
+
   /// 6 #V by 6: displacements and rotations, about the middle of the mesh.
   Eigen::MatrixXd motionsOfAll() const {
     const Eigen::Matrix3Xd& points = model_.mesh().points();
@@ -104,6 +125,7 @@ ShellResponse shellResponse(ShellSystem system, const ElasticModel& model,
   ShellResponse result;
   result.peakBytes = response.peakBytes();
   result.rigidMotionDefect = response.rigidMotionDefect();
+  result.ofWeight = response.ofWeight();
   const auto all = static_cast<Eigen::Index>(nodes.size());
   for (Eigen::Index first = 0; first < all; first += kColumnsAtOnce / 3) {
     progress.report(0.2 + 0.8 * double(first) / all, "solve");

@@ -17,6 +17,9 @@ struct ShellResponse {
   /// The largest relative error of displacements where all that is held moves rigidly: of the
   /// solution's rounding, which grows as the shell gets thinner.
   double rigidMotionDefect = -1;
+  /// 3 #V by 3, displacements where free and reactions where fixed under its own weight, one a
+  /// volume along each axis.
+  Eigen::MatrixXd ofWeight;
   std::size_t peakBytes = 0;
 };
 

@@ -16,6 +16,7 @@ ShellSystem::ShellSystem(const ElasticModel& model, const ThinShell& shell)
     for (int k = 0; k < 6; ++k) place(k, v) = shell.held()(k, v) ? -1 - held++ : free++;
 
   entries.size = free;
+  volumes = Eigen::VectorXd::Zero(mesh.vertexCount());
   const Eigen::VectorXd inclined = inclinations(mesh);
   std::vector<Eigen::Triplet<double>> ofHeldFree, ofHeldHeld;
   for (int f = 0; f < mesh.triangleCount(); ++f) {
@@ -26,8 +27,12 @@ ShellSystem::ShellSystem(const ElasticModel& model, const ThinShell& shell)
       corners.col(k) = mesh.points().col(v) / length;
       places.segment<6>(6 * k) = place.col(v);
     }
-    const Matrix18d stiffness = shellStiffness(corners, shell.thickness().col(f) / length,
-                                               model.material().poissonRatio(), inclined[f]);
+    const Eigen::Vector3d thickness = shell.thickness().col(f) / length;
+    const double area = mesh.triangleAreas()[f] / (length * length);
+    for (int k = 0; k < 3; ++k)  // of a linear thickness times a hat
+      volumes[mesh.triangles()(k, f)] += area / 12 * (thickness.sum() + thickness[k]);
+    const Matrix18d stiffness =
+        shellStiffness(corners, thickness, model.material().poissonRatio(), inclined[f]);
     for (int i = 0; i < 18; ++i)
       for (int j = 0; j < 18; ++j) {
         const int row = places[i], column = places[j];

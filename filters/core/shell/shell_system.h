@@ -28,6 +28,7 @@ struct ShellSystem {
   SymmetricEntries entries;              ///< K
   Eigen::SparseMatrix<double> heldFree;  ///< K_h
   Eigen::SparseMatrix<double> heldHeld;  ///< K_hh
+  Eigen::VectorXd volumes;               ///< #V, what of the shell's volume is a vertex', L^3
 };
 
 }  // namespace palpate::shell
