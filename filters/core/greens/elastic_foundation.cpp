@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "greens/elastic_foundation.h"
+
+#include <cmath>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <numeric>
+#include <utility>
+
+#include "greens/reciprocity.h"
+#include "greens/rigid_motions.h"
+#include "sentence.h"
+#include "stopwatch.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kSymmetric = 1e-9;  // relative: what rounding leaves of a rotated block
+
+/// What springs there are: the vertices that they release, and the free ones that they act on.
+struct Springs {
+  std::vector<int> released, free;
+
+  Springs(const GreensFunctions& greens, const Eigen::Matrix3Xd& blocks) {
+    if (blocks.cols() != 3 * greens.nodeCount())
+      refuse("there are springs for ", blocks.cols() / 3.0, " vertices of ", greens.nodeCount());
+    for (int v = 0; v < greens.nodeCount(); ++v) {
+      const Eigen::Matrix3d block = blocks.middleCols<3>(3 * v);
+      if (block.isZero(0)) continue;
+      if (!block.allFinite()) refuse("the spring at vertex ", v, " is not finite");
+      if ((block - block.transpose()).norm() > kSymmetric * block.norm())
+        refuse("the spring at vertex ", v, " is not symmetric: it would win energy");
+      const Eigen::Vector3d stiffness =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block, Eigen::EigenvaluesOnly)
+              .eigenvalues();
+      if (stiffness[0] < -kSymmetric * stiffness[2])
+        refuse("the spring at vertex ", v, " has the negative stiffness ", stiffness[0], " N/m");
+      if (greens.isFixed(v) && !(stiffness[0] > kSymmetric * stiffness[2]))
+        refuse("vertex ", v,
+               " is fixed, and its spring resists some directions only: give it a stiffness in all "
+               "three, or none to keep it fixed");
+      (greens.isFixed(v) ? released : free).push_back(v);
+    }
+    if (released.empty() && free.empty()) refuse("there is no spring of any stiffness");
+  }
+};
+
+/// The answers of a body to all that is given: columns of Xi, and what its weight does.
+class Answers {
+ public:
+  Answers(const GreensFunctions& greens, const ElasticModel& model, const Eigen::Matrix3Xd& springs,
+          const Springs& where)
+      : greens_(greens),
+        model_(model),
+        springs_(springs),
+        where_(where),
+        types_(model.conditions().types()) {
+    for (int v : where.released) types_[v] = 0;
+    greens.requireColumns(nodeList(model.conditions().freeNodes()));
+    greens.requireColumns(nodeList(where.released));
+    for (int v = 0; v < greens.nodeCount(); ++v)
+      if (greens.hasColumn(v)) columns_.push_back(v);
+    std::vector<int> rows(greens.nodeCount());
+    std::iota(rows.begin(), rows.end(), 0);
+    const bool isWeighed = greens.info().weightResponse.size() > 0;
+    answers_.resize(3 * rows.size(), 3 * columns_.size() + (isWeighed ? 3 : 0));
+    greens.gather(nodeList(rows), nodeList(columns_), answers_.data());
+    if (isWeighed) answers_.rightCols<3>() = greens.info().weightResponse;
+  }
+
+  const std::vector<int>& columns() const { return columns_; }
+  const std::vector<unsigned char>& types() const { return types_; }
+  const Eigen::MatrixXd& matrix() const { return answers_; }
+
+  /// Lets fixed vertices move on their springs.
+  void release() {
+    const std::vector<int>& nodes = where_.released;
+    if (nodes.empty()) return;
+    const Eigen::MatrixXd moved = columnsOf(nodes);
+    Eigen::MatrixXd stiffness = rowsOf(nodes, moved);
+    scaleRows(nodes, stiffness);
+    if (greens_.info().reciprocal) stiffness = ((stiffness + stiffness.transpose()) / 2).eval();
+    addSprings(nodes, stiffness);
+    Eigen::MatrixXd forces = rowsOf(nodes, answers_);  // that hold each vertex where it is
+    scaleRows(nodes, forces);
+    forces = -forces;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t c = 0; c < columns_.size(); ++c)
+        if (columns_[c] == nodes[i]) {
+          answers_.middleCols<3>(3 * c).setZero();  // from a displacement to a traction
+          forces.middleCols<3>(3 * c).setZero();
+          forces.block<3, 3>(3 * i, 3 * c).diagonal().setConstant(greens_.vertexArea(nodes[i]));
+        }
+    const Eigen::MatrixXd displacement = solved(stiffness, forces);
+    answers_.noalias() += moved * displacement;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      answers_.middleRows<3>(3 * nodes[i]) = displacement.middleRows<3>(3 * i);
+  }
+
+  /// Lets springs take their part of what acts on free vertices.
+  void hold() {
+    const std::vector<int>& nodes = where_.free;
+    const bool isLoose = model_.domain() == Domain::Unsupported;
+    if (nodes.empty()) return;
+    Eigen::MatrixXd perSpring = columnsOf(nodes);  // displacements that the springs cause
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      perSpring.middleCols<3>(3 * i) =
+          (perSpring.middleCols<3>(3 * i) * blockOf(nodes[i]) / greens_.vertexArea(nodes[i]))
+              .eval();
+    const Eigen::Index count = perSpring.cols();
+    const Eigen::MatrixXd loosened =
+        Eigen::MatrixXd::Identity(count, count) + rowsOf(nodes, perSpring);
+    if (!isLoose) {
+      answers_ -= (perSpring * solved(loosened, rowsOf(nodes, answers_))).eval();
+      return;
+    }
+    // With the rigid motion alpha: loosened u_s - R_s alpha = v_s, R_s^T S u_s = resultants.
+    const Eigen::MatrixXd motions = rigidMotionsOfBodies(model_.mesh());
+    const Eigen::Index six = motions.cols();
+    Eigen::MatrixXd both = Eigen::MatrixXd::Zero(count + six, count + six);
+    both.topLeftCorner(count, count) = loosened;
+    both.topRightCorner(count, six) = -rowsOf(nodes, motions);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      both.block(count, 3 * i, six, 3) =
+          motions.middleRows<3>(3 * nodes[i]).transpose() * blockOf(nodes[i]);
+    Eigen::MatrixXd right(count + six, answers_.cols());
+    right.topRows(count) = rowsOf(nodes, answers_);
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      right.block(count, 3 * c, six, 3) =
+          greens_.vertexArea(columns_[c]) * motions.middleRows<3>(3 * columns_[c]).transpose();
+    // Rows of the balance in the springs' own size, so that pivots compare.
+    const double size = both.bottomLeftCorner(six, count).cwiseAbs().maxCoeff();
+    both.bottomRows(six) /= size;
+    right.bottomRows(six) /= size;
+    const Eigen::MatrixXd found = solved(both, right);
+    answers_ -= (perSpring * found.topRows(count)).eval();
+    answers_.noalias() += motions * found.bottomRows(six);
+  }
+
+ private:
+  Eigen::Matrix3d blockOf(int node) const { return springs_.middleCols<3>(3 * node); }
+
+  Eigen::MatrixXd columnsOf(const std::vector<int>& nodes) const {
+    Eigen::MatrixXd result(answers_.rows(), 3 * nodes.size());
+    std::size_t i = 0;  // both ascend
+    for (std::size_t c = 0; c < columns_.size() && i < nodes.size(); ++c)
+      if (columns_[c] == nodes[i]) result.middleCols<3>(3 * i++) = answers_.middleCols<3>(3 * c);
+    return result;
+  }
+
+  static Eigen::MatrixXd rowsOf(const std::vector<int>& nodes, const Eigen::MatrixXd& matrix) {
+    Eigen::MatrixXd result(3 * nodes.size(), matrix.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      result.middleRows<3>(3 * i) = matrix.middleRows<3>(3 * nodes[i]);
+    return result;
+  }
+
+  void scaleRows(const std::vector<int>& nodes, Eigen::MatrixXd& rows) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      rows.middleRows<3>(3 * i) *= greens_.vertexArea(nodes[i]);
+  }
+
+  void addSprings(const std::vector<int>& nodes, Eigen::MatrixXd& stiffness) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      stiffness.block<3, 3>(3 * i, 3 * i) += blockOf(nodes[i]);
+  }
+
+  static Eigen::MatrixXd solved(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
+    constexpr double leastReciprocalCondition = 1e-13;
+    if (!(factors.rcond() > leastReciprocalCondition))
+      throw std::invalid_argument(
+          "these springs leave a motion of the body free, or are too soft beside it to be told "
+          "from "
+          "none: hold it in more directions, or stiffer");
+    return factors.solve(right);
+  }
+
+  const GreensFunctions& greens_;
+  const ElasticModel& model_;
+  const Eigen::Matrix3Xd& springs_;
+  const Springs& where_;
+  std::vector<unsigned char> types_;
+  std::vector<int> columns_;
+  Eigen::MatrixXd answers_;
+};
+
+}  // namespace
+
+Eigen::Matrix3Xd foundationSprings(const SurfaceMesh& mesh, const std::vector<int>& vertices,
+                                   double normal, double shear) {
+  for (double stiffness : {normal, shear})
+    if (!(stiffness >= 0 && std::isfinite(stiffness)))
+      refuse("a foundation's stiffness must be a number of at least 0, not ", stiffness, " Pa/m");
+  std::vector<bool> isHeld(mesh.vertexCount(), false);
+  for (int v : vertices) isHeld[v] = true;
+  const auto heldCorners = [&](int triangle) {
+    int count = 0;
+    for (int v : mesh.triangles().col(triangle)) count += isHeld[v];
+    return count;
+  };
+  Eigen::Matrix3Xd springs = Eigen::Matrix3Xd::Zero(3, 3 * mesh.vertexCount());
+  for (int v : vertices) {
+    Eigen::Vector3d within = Eigen::Vector3d::Zero();  // area times normal of what is held
+    double area = 0;
+    for (int f : mesh.trianglesOfVertex(v))
+      if (heldCorners(f) == 3) {
+        within += mesh.triangleAreas()[f] / 3 * mesh.triangleNormals().col(f);
+        area += mesh.triangleAreas()[f] / 3;
+      }
+    const bool isAlone = area == 0;
+    const Eigen::Vector3d n =
+        isAlone ? Eigen::Vector3d(mesh.vertexNormals().col(v)) : within.normalized();
+    springs.middleCols<3>(3 * v) =
+        (isAlone ? mesh.vertexAreas()[v] : area) *
+        (shear * Eigen::Matrix3d::Identity() + (normal - shear) * n * n.transpose());
+  }
+  return springs;
+}
+
+FoundedGreensFunctions onElasticFoundation(const GreensFunctions& greens, const ElasticModel& model,
+                                           const Eigen::Matrix3Xd& springs,
+                                           const ProgressCallback& callback) {
+  const Progress progress(callback);
+  progress.report(0, "gather");
+  Stopwatch watch;
+  const Springs where(greens, springs);
+  Answers answers(greens, model, springs, where);
+  progress.report(0.2, "release");
+  answers.release();
+  progress.report(0.6, "hold");
+  answers.hold();
+
+  FoundedGreensFunctions result{
+      ElasticModel(model.sharedMesh(), model.material(), BoundaryConditions(answers.types()),
+                   model.smoothPatches(), Domain::Given),
+      {}};
+  GreensFunctionsInfo& info = result.greens.info;
+  const GreensFunctionsInfo& before = greens.info();
+  info = infoOf(result.model, answers.columns());
+  info.homogeneous = false;
+  info.rotationsHeld = before.rotationsHeld;
+  info.reciprocal = before.reciprocal;
+  info.density = before.density;
+  info.source = sentence(before.source, ", on springs at ",
+                         where.released.size() + where.free.size(), " vertices");
+  info.diagnostics = before.diagnostics;
+  info.diagnostics.error = {};
+  info.diagnostics.seconds.clear();
+  const Eigen::Index columns = 3 * answers.columns().size();
+  result.greens.matrix = AlignedBuffer<double>(answers.matrix().rows() * columns);
+  Eigen::Map<Eigen::MatrixXd>(result.greens.matrix.data(), answers.matrix().rows(), columns) =
+      answers.matrix().leftCols(columns);
+  if (answers.matrix().cols() > columns) info.weightResponse = answers.matrix().rightCols<3>();
+  info.diagnostics.reciprocityDefect =
+      makeReciprocal(result.greens.matrix.data(), info.conditions, info.vertexAreas,
+                     info.columnNodes, info.reciprocal);
+  info.diagnostics.rockingCompliance = rockingCompliance(*result.greens.view(), model.mesh());
+  addSeconds(info.diagnostics, "found", watch.seconds());
+  progress.report(1, "done");
+  return result;
+}
+
+}  // namespace palpate
