@@ -17,6 +17,8 @@ void addRefine(CLI::App& program);
 void addRemesh(CLI::App& program);
 void addPrecompute(CLI::App& program);
 void addImport(CLI::App& program);
+void addFoundation(CLI::App& program);
+void addGravity(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);

@@ -76,6 +76,7 @@ void printProblem(vtkPolyData* surface) {
   const bool isGiven = convert::fieldString(surface, "GreensFunctionDomain") == "given";
   printField("YoungsModulus", isGiven ? "Young's modulus for it, Pa" : "Young's modulus, Pa");
   if (!isGiven) printField("PoissonRatio", "Poisson's ratio");
+  printField("Density", "density in the mean, kg/m^3");
   if (vtkDataArray* nodes = surface->GetFieldData()->GetArray("GreensFunctionNodes"))
     printRow("Green's functions of", std::to_string(nodes->GetNumberOfTuples()) + " vertices");
   for (const std::string& source : fieldStrings(surface, "GreensFunctionSource"))

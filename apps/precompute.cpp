@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "commands.h"
@@ -46,6 +47,7 @@ struct Options {
   bool hinged = false;
   bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
+  bool supportColumns = false;
   int threads = 0;
 };
 
@@ -83,8 +85,15 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
       ->check(CLI::IsMember({"direct", "iterative"}))
       ->excludes(tolerance)
       ->capture_default_str();
-  command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions")
-      ->excludes(tolerance);
+  CLI::Option* columns =
+      command.add_option("--columns", o.columns, "Compute only these vertices' Green's functions")
+          ->excludes(tolerance);
+  command
+      .add_flag("--support-columns", o.supportColumns,
+                "Also compute those of fixed vertices, so that the support can be released or "
+                "give way")
+      ->excludes(tolerance)
+      ->excludes(columns);
   command.add_flag(
       "--support-patch", o.supportPatch,
       "End the support's traction at its rim, not half an edge beyond (more accurate)");
@@ -115,8 +124,11 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("--collocation", o.collocation, "averaged, or vertex as in the paper")
       ->check(CLI::IsMember({"averaged", "vertex"}))
       ->capture_default_str();
-  command.add_option("--domain", o.domain, "Material inside the surface, or outside it")
-      ->check(CLI::IsMember({"interior", "exterior"}))
+  command
+      .add_option("--domain", o.domain,
+                  "Material inside the surface, or outside it; or inside, of a body that nothing "
+                  "holds")
+      ->check(CLI::IsMember({"interior", "exterior", "unsupported"}))
       ->capture_default_str();
   command
       .add_option("--smooth-angle", o.smoothAngle, "Traction may jump at sharper edges, degrees")
@@ -164,7 +176,8 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--support-patch", "bem"},
                                    {"--no-estimate", "bem fem"},
                                    {"--collocation", "bem"},
-                                   {"--domain", "bem"},
+                                   {"--domain", "bem fem"},
+                                   {"--support-columns", "bem fem shell"},
                                    {"--smooth-angle", "bem fem"},
                                    {"--patch-columns", "bem fem"},
                                    {"--element", "fem"},
@@ -180,17 +193,16 @@ void refuseForeignOptions(const CLI::App& command, const Options& o) {
                                   o.method + ": leave it out");
 }
 
-void setColumns(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
-  if (o.columns.empty()) return;
+void setColumns(vtkGreensFunctionsAlgorithm* filter, const std::vector<vtkIdType>& columns) {
+  if (columns.empty()) return;
   vtkNew<vtkIdTypeArray> nodes;
-  for (vtkIdType node : o.columns) nodes->InsertNextValue(node);
+  for (vtkIdType node : columns) nodes->InsertNextValue(node);
   filter->SetColumnNodes(nodes);
 }
 
 vtkSmartPointer<vtkGreensFunctionsAlgorithm> halfSpace(const Options& o) {
   auto filter = vtkSmartPointer<vtkHalfSpaceGreensFunctions>::New();
   filter->SetReciprocal(!o.raw);
-  setColumns(filter, o);
   return filter;
 }
 
@@ -198,11 +210,11 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> finiteElements(const Options& o) {
   auto filter = vtkSmartPointer<vtkFiniteElementGreensFunctions>::New();
   filter->SetElement(o.element == "quadratic");
   filter->SetCellSize(o.cellSize);
+  filter->SetUnsupported(o.domain == "unsupported");
   filter->SetEstimateError(!o.noEstimate);
   filter->SetReciprocal(!o.raw);
   filter->SetSmoothAngle(o.smoothAngle);
   filter->SetPatchColumns(o.patchColumns);
-  setColumns(filter, o);
   return filter;
 }
 
@@ -211,7 +223,6 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> thinShell(const Options& o) {
   filter->SetThickness(o.thickness);
   filter->SetClamped(!o.hinged);
   filter->SetReciprocal(!o.raw);
-  setColumns(filter, o);
   return filter;
 }
 
@@ -219,7 +230,9 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   filter->SetPrecision(o.precision == "mixed" ? 1 : o.precision == "float" ? 2 : 0);
   filter->SetSolver(o.solver == "iterative");
   filter->SetCollocation(o.collocation == "vertex");
-  filter->SetDomain(o.domain == "exterior");
+  filter->SetDomain(o.domain == "exterior"      ? vtkBoundaryElementGreensFunctions::EXTERIOR
+                    : o.domain == "unsupported" ? vtkBoundaryElementGreensFunctions::UNSUPPORTED
+                                                : vtkBoundaryElementGreensFunctions::INTERIOR);
   filter->SetTolerance(o.integrationTolerance);
   filter->SetSmoothAngle(o.smoothAngle);
   filter->SetReciprocal(!o.raw);
@@ -227,7 +240,6 @@ void setMethod(vtkBoundaryElementGreensFunctions* filter, const Options& o) {
   if (o.supportPatch) filter->SupportPatchOn();
   filter->SetPatchColumns(o.patchColumns);
   filter->SetNumberOfThreads(o.threads);
-  setColumns(filter, o);
 }
 
 /// The method as asked for, or one that chooses by tolerance.
@@ -272,7 +284,14 @@ void setInput(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
   } else {
     conditions->SetInputData(readSurface(o.input));
   }
-  filter->SetInputData(run(conditions));
+  const auto posed = run(conditions);
+  filter->SetInputData(posed);
+  std::vector<vtkIdType> columns = o.columns;
+  if (o.supportColumns) {
+    columns.resize(posed->GetNumberOfPoints());
+    std::iota(columns.begin(), columns.end(), 0);
+  }
+  setColumns(filter, columns);
 }
 
 void printModel(vtkPolyData* model) {
@@ -312,6 +331,12 @@ void addPrecompute(CLI::App& program) {
       "      --fix-half-space 0 0 0.001  0 0 1");
   command->callback([options, command] {
     refuseForeignOptions(*command, *options);
+    if (options->domain == "exterior" && options->method != "bem")
+      throw std::invalid_argument("--domain exterior makes no sense with --method " +
+                                  options->method + ": leave it out");
+    if (options->domain == "unsupported" && options->support.fixes())
+      throw std::invalid_argument(
+          "--domain unsupported is of bodies that nothing holds: leave out what fixes them");
     const auto filter = method(*options);
     setInput(filter, *options);
     const auto model = run(filter);

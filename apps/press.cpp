@@ -20,7 +20,6 @@
 #include <stdexcept>
 
 #include "commands.h"
-#include "greens/surface_fields.h"
 #include "picture/picture.h"
 #include "terminal.h"
 
@@ -55,16 +54,6 @@ void printContact(vtkPolyData* pressed) {
   printRow("probe", vectorText(haptic.data()));
   if (pressed->GetFieldData()->HasArray("ContactRotation"))
     printRow("turns by, rad", vectorText(fieldVector(pressed, "ContactRotation").data()));
-}
-
-/// By how much linear theory is strained.
-void printValidity(vtkPolyData* pressed) {
-  const double largest = fieldNumber(pressed, "LargestDisplacementGradient", 0);
-  printRow("largest displacement gradient", number(largest, 3));
-  if (largest > DisplacementGradients::kTrusted)
-    printWarning(
-        "displacements change by more than a tenth of the way they change over: linear "
-        "theory is off by more than 5 % there; press less, or spread it by a larger mask");
 }
 
 void printStress(vtkPolyData* pressed) {
@@ -183,7 +172,7 @@ void addPress(CLI::App& program) {
     printContact(pressed);
     if (options->stress) printStress(pressed);
     printProbes(probed);
-    printValidity(pressed);
+    printValidity(pressed, "press less, or spread it by a larger mask");
   });
 }
 

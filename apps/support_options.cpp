@@ -52,4 +52,8 @@ void SupportOptions::applyTo(vtkReferenceBoundaryConditions* filter) const {
   if (!sphere.empty()) filter->AddFixedSphere(sphere.data(), sphere[3]);
 }
 
+bool SupportOptions::fixes() const {
+  return !fixedArray.empty() || !halfSpace.empty() || !box.empty() || !sphere.empty();
+}
+
 }  // namespace palpate::app

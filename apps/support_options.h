@@ -23,6 +23,8 @@ struct SupportOptions {
   /// Those of the support alone.
   void addPlacesTo(CLI::App& command);
   void applyTo(vtkReferenceBoundaryConditions* filter) const;
+  /// Whether any option fixes anything.
+  bool fixes() const;
 };
 
 }  // namespace palpate::app

@@ -29,6 +29,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "greens/surface_fields.h"
 #include "picture/picture.h"
 #include "progress_bar.h"
 
@@ -165,6 +166,16 @@ void printErrors(vtkPolyData* model) {
   printRow("error by integrals", share("IntegrationError"));
   printRow("error by solver", share("SolverError"));
   printRow("error by storage", share("StorageError"));
+}
+
+void printValidity(vtkPolyData* deformed, const std::string& cure) {
+  const double largest = fieldNumber(deformed, "LargestDisplacementGradient", 0);
+  printRow("largest displacement gradient", number(largest, 3));
+  if (largest > DisplacementGradients::kTrusted)
+    printWarning(
+        "displacements change by more than a tenth of the way they change over: linear theory is "
+        "off by more than 5 % there; " +
+        cure);
 }
 
 void printWarning(const std::string& sentence) {

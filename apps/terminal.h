@@ -57,6 +57,10 @@ std::array<double, 3> fieldVector(vtkPolyData* surface, const char* name);
 /// Prints the errors that a model is estimated to have, if it is, as percents.
 void printErrors(vtkPolyData* model);
 
+/// Prints by how much linear theory is strained, with a warning that ends with a cure where that is
+/// too much.
+void printValidity(vtkPolyData* deformed, const std::string& cure);
+
 /// A line on stderr.
 void printWarning(const std::string& sentence);
 

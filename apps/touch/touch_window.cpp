@@ -118,12 +118,27 @@ void writeForces(vtkInteractorStyleHaptic* style, const std::string& path) {
   });
 }
 
+/// What a probe inside has borne.
+void printInside(vtkInteractorStyleHaptic* style, int probe, const std::string& name) {
+  const double gradient = style->GetLargestProbeDisplacementGradient(probe);
+  if (gradient == 0) return;
+  std::printf(
+      "         von Mises stress %.6g Pa, at most %.6g Pa; displacement gradient at most %.3g\n",
+      style->GetProbeVonMisesStress(probe), style->GetLargestProbeVonMisesStress(probe), gradient);
+  std::fflush(stdout);
+  if (const double time = style->GetProbeLimitTime(probe); time >= 0)
+    std::cerr << "palpate: warning: a limit of the probe " << name << " was first exceeded at "
+              << time << " s\n";
+}
+
 void printProbes(vtkInteractorStyleHaptic* style) {
   for (int probe = 0; probe < style->GetNumberOfProbes(); ++probe) {
     double u[3];
     style->GetProbeDisplacement(probe, u);
-    std::cout << "probe " << style->GetProbeName(probe) << "   displacement " << u[0] << " " << u[1]
-              << " " << u[2] << " m\n";
+    const std::string name = style->GetProbeName(probe);
+    std::cout << "probe " << name << "   displacement " << u[0] << " " << u[1] << " " << u[2]
+              << " m\n";
+    printInside(style, probe, name);
   }
 }
 

@@ -22,6 +22,7 @@ from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
 from .imports import import_compliance, import_stiffness
+from .loads import foundation, gravity
 from .precomputation import precompute
 from .surfaces import refine, remesh, repair
 from .version import __version__
@@ -33,6 +34,8 @@ __all__ = [
     "__version__",
     "array",
     "example",
+    "foundation",
+    "gravity",
     "greens_function_nodes",
     "greens_functions",
     "import_compliance",

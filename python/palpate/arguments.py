@@ -12,7 +12,7 @@ from .errors import Error
 PRECISIONS = {"double": 0, "mixed": 1, "float": 2}
 COLLOCATIONS = {"averaged": 0, "vertex": 1}
 SUBDIVISIONS = {"loop": 0, "flat": 1, "curved": 2}
-DOMAINS = {"interior": 0, "exterior": 1}
+DOMAINS = {"interior": 0, "exterior": 1, "unsupported": 2}
 MASKS = {"linear": 0, "uniform": 1, "gaussian": 2, "hertzian": 3, "gradient": 4, "biharmonic": 5}
 DISTANCES = {"euclidean": 0, "geodesic": 1}
 MEASURES = {"vertex": 0, "mean": 1}

@@ -80,8 +80,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     columns : array_like of int, optional
         Vertices whose Green's functions are computed, by number or as a mask of n booleans; all free
         ones by default. Moving or releasing fixed vertices needs theirs, too.
-    domain : {"interior", "exterior"}
-        Material inside the surface, or everywhere outside it.
+    domain : {"interior", "exterior", "unsupported"}
+        Material inside the surface, or everywhere outside it, or (of finite elements, too) inside a
+        body that nothing holds: loads are balanced by tractions that vary like a rigid motion over the
+        whole surface, and displacements counted from the body's mean motion. `BoundaryType` is not read
+        then.
     reciprocal : bool
         Symmetrise the compliance between free vertices, so that all that is served comes from one
         energy. Distributed loads on coarse or sharp-edged meshes are more accurate without, pressures on
@@ -163,6 +166,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         if method != "fem" or volume is not None:
             raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
         surface, volume = boundary_of(surface), surface
+    if domain == "unsupported" and fixed is not None:
+        raise Error("domain='unsupported' is of bodies that nothing holds: leave fixed out")
     settings = dict(
         precision=precision, tolerance=tolerance, domain=domain, smooth_angle=smooth_angle,
         collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
@@ -235,7 +240,7 @@ def boundary_of(grid):
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
     "estimate_error": ("bem", "fem"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
-    "thickness": ("shell",), "clamped": ("shell",),
+    "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem"),
 }
 
 
@@ -264,9 +269,13 @@ def set_thickness(greens, surface, thickness):
     surface.GetCellData().RemoveArray(THICKNESS)
 
 
-def finite_elements(volume, element, cell_size, smooth_angle, patch_columns, estimate_error, **_):
+def finite_elements(volume, element, cell_size, domain, smooth_angle, patch_columns, estimate_error,
+                    **_):
     """The filter of finite elements, but for its surface and columns."""
     filter = vtkFiniteElementGreensFunctions()
+    if choice(domain, DOMAINS, "domain") == DOMAINS["exterior"]:
+        raise Error("domain='exterior' makes no sense for method='fem': leave it out")
+    filter.SetUnsupported(domain == "unsupported")
     if volume is not None:
         if not isinstance(volume, vtkUnstructuredGrid):
             raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")

@@ -32,7 +32,9 @@ const std::string kShapes = R"({
   "effects": {"deformation": "visible", "friction": {"mu": 0.3}, "unilateral": true,
               "torque": true, "gravity": [0, 0, -9.81], "stiffness_limit": 2000,
               "stiffness_scale": 1.5, "elastic_elastic": true,
-              "probes": [{"name": "top", "node": 7}, {"name": "side", "position": [0, 1, 0]}]},
+              "probes": [{"name": "top", "node": 7}, {"name": "side", "position": [0, 1, 0]},
+                         {"name": "tumour", "inside": [0, 0, 0.5], "von_mises_limit": 4e3,
+                          "gradient_limit": 0.1}]},
   "servo": {"rate": 500, "budget": 0.5, "snapshot_ticks": 2, "passivity_damping": 1.5,
             "real_time": false, "processor": 1},
   "solver": {"capacity": 64, "margin": 0.001, "linearisations": 2, "tolerance": 1e-6,
@@ -83,9 +85,14 @@ TEST(Scenes, SayWhatIsTouchedWithWhatAndWhatOfItIsSimulated) {
   EXPECT_TRUE(scene.effects.torque);
   EXPECT_EQ(scene.effects.gravity.z(), -9.81);
   EXPECT_EQ(scene.effects.stiffnessScale, 1.5);
-  ASSERT_EQ(scene.effects.probes.size(), 2u);
+  ASSERT_EQ(scene.effects.probes.size(), 3u);
   EXPECT_EQ(scene.effects.probes[0].node, 7);
   EXPECT_EQ(scene.effects.probes[1].position.y(), 1);
+  EXPECT_FALSE(scene.effects.probes[1].isInside);
+  EXPECT_TRUE(scene.effects.probes[2].isInside);
+  EXPECT_EQ(scene.effects.probes[2].position.z(), 0.5);
+  EXPECT_EQ(scene.effects.probes[2].limits.vonMises, 4e3);
+  EXPECT_EQ(scene.effects.probes[2].limits.gradient, 0.1);
   EXPECT_EQ(scene.servo.rate, 500);
   EXPECT_EQ(scene.servo.snapshotTicks, 2);
   EXPECT_EQ(scene.servo.passivityDamping, 1.5);
@@ -215,8 +222,12 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
        "\"effects.wind\" is not a key that is known here: the nearest is"},
       {"\"node\": 7", "\"node\": 7.5", "\"effects.probes[0].node\" must be a whole number"},
       {"\"node\": 7", "\"node\": -7", "\"effects.probes[0].node\" must be a whole number"},
-      {", \"node\": 7", "", "\"effects.probes[0]\" must have a node or a position, and not both"},
+      {", \"node\": 7", "", "\"effects.probes[0]\" must have one of node, position and inside"},
       {"\"name\": \"side\"", "\"name\": \"top\"", "\"effects.probes[1].name\" must be its own"},
+      {"\"inside\": [0, 0, 0.5]", "\"node\": 3",
+       "\"effects.probes[2].gradient_limit\" is not a key that is known here"},
+      {"\"gradient_limit\": 0.1", "\"gradient_limit\": 0",
+       "\"effects.probes[2].gradient_limit\" must be a positive number"},
       {"\"rate\": 500", "\"rate\": 100",
        "\"servo.rate\" must be a number from 250 to 10000, not 100"},
       {"\"rate\": 500", "\"rate\": 1e5",

@@ -153,18 +153,55 @@ std::vector<ProbedField> InteriorProbes::evaluate(const Eigen::Matrix3Xd& displa
   if (displacement.cols() != vertexCount_ || traction.cols() != vertexCount_)
     refuse("displacement and traction must be given at ", vertexCount_, " vertices, not at ",
            displacement.cols(), " and ", traction.cols());
-  std::vector<ProbedField> fields(ofTraction_.size());
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const Eigen::Matrix<double, 13, 1> values =
-        ofTraction_[i] * traction.reshaped() + ofDisplacement_[i] * displacement.reshaped();
-    ProbedField& field = fields[i];
-    field.displacement = values.head<3>();
-    field.gradient = values.segment<9>(3).reshaped<Eigen::RowMajor>(3, 3);
-    const Eigen::Matrix3d strain = field.strain();
-    field.stress = 2 * shearModulus_ * strain;
-    field.stress.diagonal().array() += values[12] - 2 * shearModulus_ * strain.trace() / 3;
-  }
+  std::vector<ProbedField> fields;
+  for (std::size_t i = 0; i < ofTraction_.size(); ++i)
+    fields.push_back(
+        fieldOf(ofTraction_[i] * traction.reshaped() + ofDisplacement_[i] * displacement.reshaped(),
+                shearModulus_));
   return fields;
+}
+
+Eigen::MatrixXd InteriorProbes::values(const Eigen::MatrixXd& displacement,
+                                       const Eigen::MatrixXd& traction) const {
+  Eigen::MatrixXd result(13 * ofTraction_.size(), displacement.cols());
+  for (std::size_t i = 0; i < ofTraction_.size(); ++i) {
+    auto rows = result.middleRows<13>(static_cast<Eigen::Index>(13 * i));
+    rows.noalias() = ofTraction_[i] * traction;
+    rows.noalias() += ofDisplacement_[i] * displacement;
+  }
+  return result;
+}
+
+ProbeRows probeRows(const GreensFunctions& greens, const ElasticModel& model,
+                    const Eigen::Matrix3Xd& points, const ProgressCallback& callback, int threads) {
+  constexpr int atOnce = 32;  // nodes
+  if (!greens.info().homogeneous)
+    refuse("probes are in bodies of one isotropic material, which this is not");
+  const Progress progress(callback);
+  const InteriorProbes probes(model, points, progress.part(0, 0.5).callback(), threads);
+  const int count = greens.nodeCount();
+  Eigen::VectorXi all = Eigen::VectorXi::LinSpaced(count, 0, count - 1);
+  std::vector<int> loaded;  // on which a force can act
+  for (int node = 0; node < count; ++node)
+    if (!greens.isFixed(node) && greens.hasColumn(node)) loaded.push_back(node);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(13 * points.cols(), 3 * count);
+  for (std::size_t first = 0; first < loaded.size(); first += atOnce) {
+    progress.report(0.5 + 0.5 * double(first) / loaded.size(), "probe");
+    const auto now = static_cast<int>(std::min<std::size_t>(atOnce, loaded.size() - first));
+    Eigen::MatrixXd displacement(3 * count, 3 * now), traction = displacement;
+    greens.gather(all, Eigen::Map<const Eigen::VectorXi>(&loaded[first], now), displacement.data());
+    traction.setZero();
+    for (int node = 0; node < count; ++node)
+      if (greens.isFixed(node)) {
+        traction.middleRows<3>(3 * node) = displacement.middleRows<3>(3 * node);
+        displacement.middleRows<3>(3 * node).setZero();
+      }
+    for (int i = 0; i < now; ++i) traction.block<3, 3>(3 * loaded[first + i], 3 * i).setIdentity();
+    const Eigen::MatrixXd values = probes.values(displacement, traction);
+    for (int i = 0; i < now; ++i)
+      rows.middleCols<3>(3 * loaded[first + i]) = values.middleCols<3>(3 * i);
+  }
+  return {std::move(rows), model.material().shearModulus()};
 }
 
 }  // namespace palpate

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "greens/greens_functions.h"
+#include "greens/probe_rows.h"
 #include "mesh/surface_mesh.h"
 #include "model/boundary_conditions.h"
 #include "model/elastic_model.h"
@@ -18,15 +20,6 @@ namespace palpate {
 /// @param points  3 by any.
 /// @throws std::invalid_argument for a domain other than interior and exterior.
 std::vector<int> probesInside(const ElasticModel& model, const Eigen::Matrix3Xd& points);
-
-/// The fields at a point of a body.
-struct ProbedField {
-  Eigen::Vector3d displacement;  ///< m
-  Eigen::Matrix3d gradient;      ///< du_i / dx_k
-  Eigen::Matrix3d stress;        ///< Pa
-
-  Eigen::Matrix3d strain() const { return (gradient + gradient.transpose()) / 2; }
-};
 
 /// Displacement, strain and stress at points inside a homogeneous isotropic body ([JP01] section
 /// 3.5), from displacement and traction on all of its surface (Somigliana's identity), whatever
@@ -53,6 +46,11 @@ class InteriorProbes {
   std::vector<ProbedField> evaluate(const Eigen::Matrix3Xd& displacement,
                                     const Eigen::Matrix3Xd& traction) const;
 
+  /// ProbeValues of many answers at once: 13 #points by #answers.
+  /// @param displacement, traction  3 #V by #answers.
+  Eigen::MatrixXd values(const Eigen::MatrixXd& displacement,
+                         const Eigen::MatrixXd& traction) const;
+
   /// From the surface, in mean edge lengths, a point each.
   const Eigen::VectorXd& distances() const { return distances_; }
 
@@ -65,5 +63,14 @@ class InteriorProbes {
   std::vector<Rows> ofTraction_, ofDisplacement_;  ///< 13 by 3 #V a point
   Eigen::VectorXd distances_;
 };
+
+/// The rows of points inside a body, from all columns of its Green's functions.
+/// @param greens  of the model, whose material is theirs.
+/// @throws std::invalid_argument unless the body is homogeneous and isotropic, and as
+/// InteriorProbes;
+///         Aborted.
+ProbeRows probeRows(const GreensFunctions& greens, const ElasticModel& model,
+                    const Eigen::Matrix3Xd& points, const ProgressCallback& progress = {},
+                    int threads = 0);
 
 }  // namespace palpate

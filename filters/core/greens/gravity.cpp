@@ -21,7 +21,8 @@ Eigen::Vector3d middleOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
 }
 
 /// @throws if the weight cannot be told from the surface.
-void requireKnown(const GreensFunctionsInfo& info) {
+void requireKnown(const GreensFunctions& greens) {
+  const GreensFunctionsInfo& info = greens.info();
   const char* reason = nullptr;
   if (info.domain == Domain::Given)
     reason = "the weight of what a given matrix is of is not known from its surface";
@@ -34,6 +35,7 @@ void requireKnown(const GreensFunctionsInfo& info) {
   else if (info.domain == Domain::Shell || !info.homogeneous)
     reason = "this model does not know what its weight does: compute its Green's functions again";
   if (reason) throw std::invalid_argument(reason);
+  greens.requireColumns(nodeList(info.conditions.freeNodes()));
 }
 
 /// Under one weight; zero where fixed.
@@ -76,8 +78,7 @@ Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh&
                                const Eigen::VectorXi& patches) {
   const GreensFunctionsInfo& info = greens.info();
   if (info.weightResponse.size() > 0) return info.weightResponse;
-  requireKnown(info);
-  greens.requireColumns(nodeList(info.conditions.freeNodes()));
+  requireKnown(greens);
   Eigen::MatrixXd response(3 * mesh.vertexCount(), 3);
   for (int k = 0; k < 3; ++k)
     response.col(k) = displacementUnder(Eigen::Vector3d::Unit(k), greens, mesh, patches).reshaped();
@@ -87,9 +88,13 @@ Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh&
 Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                      const Eigen::VectorXi& patches,
                                      const Eigen::Vector3d& weight) {
-  Eigen::Matrix3Xd displacement =
-      (weightResponse(greens, mesh, patches) * weight).reshaped(3, mesh.vertexCount());
-  for (int node : greens.info().conditions.fixedNodes()) displacement.col(node).setZero();
+  const GreensFunctionsInfo& info = greens.info();
+  if (info.weightResponse.size() == 0) {
+    requireKnown(greens);
+    return displacementUnder(weight, greens, mesh, patches);
+  }
+  Eigen::Matrix3Xd displacement = (info.weightResponse * weight).reshaped(3, mesh.vertexCount());
+  for (int node : info.conditions.fixedNodes()) displacement.col(node).setZero();
   return displacement;
 }
 

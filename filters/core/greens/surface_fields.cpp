@@ -44,10 +44,7 @@ DisplacementGradients surfaceGradients(const SurfaceMesh& mesh,
     const Eigen::Matrix3d& gradient =
         result.gradient.emplace_back(gradientAlong(mesh, f, displacement));
     if (gradient.norm() <= result.largest) continue;  // Frobenius' norm is none the less
-    const double norm =
-        std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                    gradient.transpose() * gradient, Eigen::EigenvaluesOnly)
-                                    .eigenvalues()[2]));
+    const double norm = spectralNorm(gradient);
     if (norm <= result.largest) continue;
     result.largest = norm;
     result.triangle = f;
@@ -81,6 +78,12 @@ SurfaceFields surfaceFields(const ElasticModel& model, const Eigen::Matrix3Xd& d
     fields.stress.push_back(stress);
   }
   return fields;
+}
+
+double spectralNorm(const Eigen::Matrix3d& gradient) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> square(gradient.transpose() * gradient,
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, square.eigenvalues()[2]));
 }
 
 double vonMisesStress(const Eigen::Matrix3d& stress) {

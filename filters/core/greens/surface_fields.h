@@ -44,6 +44,9 @@ struct SurfaceFields {
 SurfaceFields surfaceFields(const ElasticModel& model, const Eigen::Matrix3Xd& displacement,
                             const Eigen::Matrix3Xd& traction);
 
+/// The largest singular value.
+double spectralNorm(const Eigen::Matrix3d& gradient);
+
 /// Of a symmetric stress.
 double vonMisesStress(const Eigen::Matrix3d& stress);
 

@@ -64,6 +64,7 @@ class Planner {
       planShapes();
     if (!scene.effects.gravity.isZero(0)) planGravity();
     plan_.loaded = loadedOf_[0];
+    planProbesInside();
     planFrame();
     plan_.memory.push_back({"snapshots of contacts", kSnapshots * snapshotBytes_});
   }
@@ -78,11 +79,27 @@ class Planner {
       const BodySizes& body = bodies_[i];
       const double blocks = double(2 * body.nodes - body.freeNodes) * body.freeNodes;
       const std::string which = i ? " of partner " + std::to_string(i) : "";
-      plan_.setup.push_back({"gravity" + which, double(body.nodes), double(body.freeNodes),
-                             2 * kBlock * blocks, kNumber * kBlock * blocks});
+      if (!body.knowsWeight)
+        plan_.setup.push_back({"gravity" + which, double(body.nodes), double(body.freeNodes),
+                               2 * kBlock * blocks, kNumber * kBlock * blocks});
       plan_.memory.push_back({"surface under gravity" + which,
                               kMeshVertex * body.nodes + kMeshTriangle * body.triangles});
     }
+  }
+
+  /// Thirteen rows a point, from all columns at first, then for the nodes under forces.
+  void planProbesInside() {
+    double points = 0;
+    for (const SceneProbe& probe : scene_.effects.probes) points += probe.isInside;
+    if (points == 0) return;
+    constexpr double values = 13, perBlock = 3 * values;
+    const double all = double(first_.nodes) * first_.freeNodes;
+    plan_.setup.push_back({"probes inside", double(first_.nodes), double(first_.freeNodes),
+                           2 * 2 * values * points * kBlock * all, kNumber * kBlock * all});
+    const double blocks = points * loadedOf_[0];
+    plan_.tick.push_back({"probes inside", points, loadedOf_[0], 2 * perBlock * blocks,
+                          kNumber * perBlock * blocks});
+    plan_.memory.push_back({"rows of probes inside", kNumber * perBlock * points * first_.nodes});
   }
 
   void planPoints() {
@@ -219,7 +236,9 @@ class Planner {
     }
     if (scene_.effects.probes.empty()) return;
     double count = 0;
-    for (const SceneProbe& probe : scene_.effects.probes) count += probe.node >= 0 ? 1 : 3;
+    for (const SceneProbe& probe : scene_.effects.probes)
+      count += probe.isInside ? 0 : probe.node >= 0 ? 1 : 3;
+    if (count == 0) return;
     if (rows != DeformationRows::All) addRows("probes", count, loadedOf_[0]);
     plan_.memory.push_back(
         {"probes",
@@ -299,6 +318,7 @@ BodySizes sizesOf(const SceneBody& body, const Scene& scene) {
   for (int f = 0; f < mesh.triangleCount(); ++f) sizes.longestEdges.push_back(mesh.longestEdge(f));
   std::sort(sizes.longestEdges.begin(), sizes.longestEdges.end());
   sizes.reciprocal = body.greens->info().reciprocal;
+  sizes.knowsWeight = body.greens->info().weightResponse.size() > 0;
   if (scene.isOfPoints()) measureMasks(body, scene.effects, sizes);
   return sizes;
 }

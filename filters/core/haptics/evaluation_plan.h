@@ -17,6 +17,7 @@ struct BodySizes {
   double edge = 0;      ///< m, mean
   double radius = 0;    ///< m, of the ball with the same diagonal of its bounding box
   bool reciprocal = false;
+  bool knowsWeight = false;  ///< what it does comes with the Green's functions
   std::vector<double> longestEdges;  ///< m, of each triangle, ascending
   // Of pressure masks, if points touch it:
   double maskNodes = 0;         ///< mean number of nodes

@@ -182,12 +182,18 @@ SceneProbe readProbe(const Json& value, const std::string& path) {
   JsonSection section(value, path);
   SceneProbe probe;
   probe.name = readText(section.need("name"), section.path("name"));
-  const Json *node = section.find("node"), *position = section.find("position");
-  if (!node == !position) refuseKey(path, "must have a node or a position, and not both");
-  if (node)
-    probe.node = readInteger(*node, section.path("node"), 0, 1 << 30);
-  else
-    probe.position = readVector(*position, section.path("position"));
+  const Json *node = section.find("node"), *position = section.find("position"),
+             *inside = section.find("inside");
+  if (!!node + !!position + !!inside != 1)
+    refuseKey(path, "must have one of node, position and inside");
+  if (node) probe.node = readInteger(*node, section.path("node"), 0, 1 << 30);
+  if (position) probe.position = readVector(*position, section.path("position"));
+  probe.isInside = inside != nullptr;
+  if (inside) {
+    probe.position = readVector(*inside, section.path("inside"));
+    readIf(section, "von_mises_limit", probe.limits.vonMises, readPositive, 1e15);
+    readIf(section, "gradient_limit", probe.limits.gradient, readPositive, kFarthest);
+  }
   section.requireNothingElse();
   return probe;
 }

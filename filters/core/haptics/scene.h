@@ -12,6 +12,7 @@
 #include "contact/rigid_shape.h"
 #include "contact/unilateral_contact.h"
 #include "haptics/hand_model.h"
+#include "haptics/probed_touch.h"
 #include "haptics/servo_loop.h"
 #include "haptics/workspace_mapping.h"
 
@@ -59,11 +60,13 @@ struct SceneDevice {
   WorkspaceMapping mapping;
 };
 
-/// A place on the first model whose displacement is reported.
+/// A place on the first model, whose displacement is reported, or inside it, whose stress is, too.
 struct SceneProbe {
   std::string name;
   int node = -1;                                       ///< or, if negative:
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, the surface's point nearest to it
+  bool isInside = false;                               ///< at that position itself
+  ProbeLimits limits;                                  ///< if it is inside
 };
 
 /// Whose displacements are computed, a frame.
@@ -114,11 +117,12 @@ struct SceneEffects {
 /// - "effects": {"deformation": all, visible, contact or none (all), "friction": {"mu"} (0),
 ///   "unilateral" (true with shapes: they only press; false, as always with points: what they touch
 ///   is held, and pulled, while the first button of their device is pressed), "torque" (false),
-///   "gravity" in m/s^2 (0), "probes": a list of {"name", and "node" or "position"} (none), "masks"
-///   of points: {"shape": linear, uniform, gaussian or hertzian (linear), "radius" or
-///   "radius_edges" (the vertex alone)}, "stiffness_limit" in N/m, of what points feel and of fixed
-///   vertices (the model's own),
-///   "stiffness_scale" (1), "elastic_elastic" (false)}.
+///   "gravity" in m/s^2 (0), "probes": a list of {"name", and "node", "position" on the surface or
+///   "inside" of the body, with "von_mises_limit" in Pa and "gradient_limit" from which on it is
+///   reported (none)} (none), "masks" of points: {"shape": linear, uniform, gaussian or hertzian
+///   (linear), "radius" or "radius_edges" (the vertex alone)}, "stiffness_limit" in N/m, of what
+///   points feel and of fixed vertices (the model's own), "stiffness_scale" (1), "elastic_elastic"
+///   (false)}.
 /// - "servo": {"rate" in Hz (1000), "budget" (0.7), "snapshot_ticks" (1), "passivity_damping" in N
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
 /// - "solver", of tools with a shape: {"capacity" (as many contacts as the model has vertices, from

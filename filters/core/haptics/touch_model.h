@@ -27,6 +27,15 @@ struct ToolContact {
   bool sliding = false;
 };
 
+/// What a probe inside the first body reads.
+struct ProbeReading {
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< m
+  double vonMises = 0;                                     ///< Pa
+  double gradient = 0;                              ///< spectral norm of the displacement gradient
+  double largestVonMises = 0, largestGradient = 0;  ///< so far
+  std::int64_t exceededTick = -1;  ///< at which a limit was first exceeded; -1 for never
+};
+
 /// A state of contact from which the whole deformation follows, for a slower thread: tools and the
 /// forces on nodes (a node may occur more than once). Its vectors have their final size from
 /// `TouchModel::makeSnapshot` on, so that filling one allocates nothing.
@@ -40,6 +49,7 @@ struct ContactSnapshot {
   /// What presses there: a part of a tool, numbered through all tools; -1: a point, another body.
   std::vector<int> loadedParts;
   std::vector<Eigen::Vector3d> loads;  ///< on the body, N
+  std::vector<ProbeReading> probes;    ///< inside the first body, in the scene's order
 };
 
 /// What the servo loop evaluates in every tick: poses of the tools in, wrenches on them out.

@@ -155,6 +155,14 @@ std::shared_ptr<TouchModel> toolTouch(
 
 }  // namespace
 
+Eigen::Matrix3Xd placesInside(const Scene& scene) {
+  Eigen::Matrix3Xd points(3, scene.effects.probes.size());
+  Eigen::Index count = 0;
+  for (const SceneProbe& probe : scene.effects.probes)
+    if (probe.isInside) points.col(count++) = probe.position;
+  return points.leftCols(count);
+}
+
 void requireTouchable(const SceneBody& body) {
   if (body.greens->info().domain == Domain::Exterior)
     throw std::invalid_argument(
@@ -204,8 +212,10 @@ TouchSession::TouchSession(const Scene& scene, const std::vector<SceneBody>& bod
   if (!scene.effects.gravity.isZero(0))
     for (std::size_t i = 0; i < bodies.size(); ++i)
       bodies_[i].mesh = hung(bodies[i], scene.models[i], scene.effects.gravity);
-  model_ =
+  contact_ =
       scene.isOfPoints() ? pointTouch(scene, bodies_[0]) : toolTouch(scene, bodies_, toolMeshes);
+  model_ = contact_;
+  if (placesInside(scene).cols() > 0) probeInside(scene);
   if (rows_ == DeformationRows::None) return;
   computed_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -213,11 +223,36 @@ TouchSession::TouchSession(const Scene& scene, const std::vector<SceneBody>& bod
                                scene.models[i].pose.orientation);
 }
 
+void TouchSession::probeInside(const Scene& scene) {
+  if (!bodies_[0].probeRows)
+    throw std::invalid_argument(
+        "the scene probes the inside of its model, of which there are no rows");
+  std::vector<ProbeLimits> limits;
+  for (const SceneProbe& probe : scene.effects.probes)
+    if (probe.isInside) limits.push_back(probe.limits);
+  const auto probed = std::make_shared<ProbedTouch>(contact_, bodies_[0].greens,
+                                                    *bodies_[0].probeRows, std::move(limits));
+  probed->setStiffnessScale(stiffnessScale_);
+  probed_ = probed.get();
+  model_ = probed;
+}
+
+void TouchSession::setStiffnessScale(double scale) noexcept {
+  stiffnessScale_ = scale;
+  if (probed_) probed_->setStiffnessScale(scale);
+}
+
 void TouchSession::placeProbes(const std::vector<SceneProbe>& probes, const SceneBody& body) {
   if (probes.empty()) return;
   probes_.setZero(3, probes.size());
   probeStarts_.push_back(0);
+  int inside = 0;
   for (const SceneProbe& probe : probes) {
+    insideNumbers_.push_back(probe.isInside ? inside++ : -1);
+    if (probe.isInside) {
+      probeStarts_.push_back(static_cast<int>(probeNodes_.size()));
+      continue;
+    }
     if (probe.node >= body.greens->nodeCount())
       throw std::invalid_argument("the probe '" + probe.name + "' is at node " +
                                   std::to_string(probe.node) + ", but the model has " +
@@ -252,11 +287,14 @@ void TouchSession::computeProbes(const ContactSnapshot& snapshot) {
                         at.reshaped());
   }
   probes_.setZero();
-  for (int probe = 0; probe < probes_.cols(); ++probe)
+  for (int probe = 0; probe < probes_.cols(); ++probe) {
+    if (insideNumbers_[probe] >= 0)
+      probes_.col(probe) = snapshot.probes[insideNumbers_[probe]].displacement;
     for (int i = probeStarts_[probe]; i < probeStarts_[probe + 1]; ++i)
       if (!greens().isFixed(probeNodes_[i]))
         probes_.col(probe) += probeWeights_[i] * (isKnown ? displacement(0).col(probeNodes_[i])
                                                           : Eigen::Vector3d(at.col(i)));
+  }
 }
 
 void TouchSession::computeFrame(const ContactSnapshot& snapshot,

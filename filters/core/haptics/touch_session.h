@@ -19,7 +19,12 @@ struct SceneBody {
   std::shared_ptr<const GreensFunctions> greens;
   std::shared_ptr<const SurfaceMesh> mesh;
   Eigen::VectorXi smoothPatches = {};  ///< #F, as the Green's functions were made with; for gravity
+  /// Of the scene's probes inside, in its order; null without any.
+  std::shared_ptr<const ProbeRows> probeRows = nullptr;
 };
+
+/// 3 by #points, m: where a scene's probes inside the first model are.
+Eigen::Matrix3Xd placesInside(const Scene& scene);
 
 /// @throws std::invalid_argument for a body that no tool can touch: of an exterior domain, whose
 ///         material is where tools are, or without Green's functions of any free node.
@@ -36,13 +41,15 @@ class TouchSession {
   /// @param bodies      one for each of the scene's models, in its order.
   /// @param toolMeshes  one for each of its tools, null but for meshes; may be empty without them.
   /// @throws std::invalid_argument if a body or a tool's mesh is missing, for a probe that is not
-  ///         on the first model; and as requireTouchable, gravityDisplacement, PointTouch,
-  ///         SurfaceStiffness and ToolTouch.
+  ///         on the first model, or without rows of those inside it; and as requireTouchable,
+  ///         gravityDisplacement, PointTouch, SurfaceStiffness and ToolTouch.
   TouchSession(const Scene& scene, const std::vector<SceneBody>& bodies,
                const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes = {});
 
   /// For ServoLoop.
   const std::shared_ptr<TouchModel>& model() const { return model_; }
+  /// What of it touches: PointTouch or ToolTouch.
+  TouchModel& contact() const { return *contact_; }
 
   /// A body before it is touched: as it was given, or as it hangs under its weight. From there on
   /// displacements are counted.
@@ -57,7 +64,7 @@ class TouchSession {
                     const std::vector<std::vector<int>>& visible = {});
 
   /// Tells by what the model scales its forces from now on: they deform without it.
-  void setStiffnessScale(double scale) noexcept { stiffnessScale_ = scale; }
+  void setStiffnessScale(double scale) noexcept;
 
   /// Whether displacements are computed at all, beyond those of probes.
   bool deforms() const { return !deformations_.empty(); }
@@ -66,10 +73,11 @@ class TouchSession {
   const Eigen::Matrix3Xd& displacement(int body) const {
     return deformations_.at(body).displacement();
   }
-  /// 3 by #probes, in the scene's order, m.
+  /// 3 by #probes, in the scene's order, m: of the last frame, or of the snapshot for those inside.
   const Eigen::Matrix3Xd& probeDisplacements() const { return probes_; }
 
  private:
+  void probeInside(const Scene& scene);
   void placeProbes(const std::vector<SceneProbe>& probes, const SceneBody& body);
   void computeProbes(const ContactSnapshot& snapshot);
 
@@ -78,7 +86,9 @@ class TouchSession {
   std::vector<SceneBody> bodies_;
   DeformationRows rows_;
   double stiffnessScale_;
-  std::shared_ptr<TouchModel> model_;
+  std::shared_ptr<TouchModel> contact_, model_;
+  ProbedTouch* probed_ = nullptr;   ///< the model, if probes are inside
+  std::vector<int> insideNumbers_;  ///< a probe: its number among those inside, or -1
   std::vector<SnapshotDeformation> deformations_;  ///< a body, or none
   std::vector<std::vector<int>> computed_;         ///< rows of the last frame, a body
   std::vector<int> probeNodes_;                    ///< as many a probe as probeStarts_ says

@@ -47,6 +47,9 @@ constexpr const char* Stress = "Stress";                 // 6, the same, Pa
 constexpr const char* VonMisesStress = "VonMisesStress"; // Pa
 constexpr const char* PrincipalStress = "PrincipalStress"; // 3, the largest first, Pa
 
+// Point data of models on springs, see vtkElasticFoundation.
+constexpr const char* SpringStiffness = "SpringStiffness"; // 1 or 9, row by row, N/m
+
 // Point data of shells.
 constexpr const char* Thickness = "Thickness"; // m; cell data, too, and then one a triangle
 /// uint8, 6: displacement along x, y, z and rotation about them held, besides what fixed vertices hold;
@@ -69,6 +72,7 @@ constexpr const char* FibreDirection = "FibreDirection"; // 3, of any length but
 constexpr const char* OrthotropicModuli = "OrthotropicModuli"; // 9: E 1, 2, 3; nu 12, 13, 23; G 12, 13, 23
 constexpr const char* MaterialAxes = "MaterialAxes"; // 6: directions of axes 1 and 2
 constexpr const char* ElasticityTensor = "ElasticityTensor"; // 21, upper triangle row by row, Pa
+constexpr const char* Density = "Density"; // kg/m^3; field data of a model, too: the mean
 
 // Field data: Green's functions.
 /// 3 #points components a tuple, one tuple a column of Xi (three a node of GreensFunctionNodes); rows
@@ -79,11 +83,14 @@ constexpr const char* GreensFunctionNodes = "GreensFunctionNodes"; // id
 /// The same for tractions on single patches of vertices on sharp edges, and (node, patch) of each.
 constexpr const char* PatchGreensFunctions = "PatchGreensFunctions";
 constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 2, id
+/// What a weight of 1 N/m^3 in the mean does, three tuples like those of GreensFunctions, one an axis:
+/// metres where free, pascals where fixed. Where it is missing, boundary elements' models find it.
+constexpr const char* WeightResponse = "WeightResponse";
 /// Young's modulus that the stored functions were computed with; YoungsModulus scales what is served.
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
 constexpr const char* HomogeneousMaterial = "HomogeneousMaterial"; // 0, or absent
-/// interior, exterior, halfspace, shell or given
+/// interior, exterior, halfspace, shell, given or unsupported
 constexpr const char* GreensFunctionDomain = "GreensFunctionDomain";
 constexpr const char* Clamped = "Clamped"; // of shells: 1 fixed vertices do not turn, 0 they do
 constexpr const char* GreensFunctionsReciprocal = "GreensFunctionsReciprocal"; // uint8
@@ -138,12 +145,12 @@ constexpr const char* StiffnessChangeMeasures =
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
-constexpr const char* SpringStiffness = "SpringStiffness"; // N/m, optional: a spring to the displacement
+// SpringStiffness (1, N/m, optional): a spring to the displacement
 constexpr const char* Zone = "Zone";           // int, optional: whose force it counts to
 
 /// Field data of one computation of Green's functions.
 constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
-  PatchGreensFunctions, PatchGreensFunctionNodes, GreensFunctionYoungsModulus, GreensFunctionSource,
+  PatchGreensFunctions, PatchGreensFunctionNodes, WeightResponse, Density, GreensFunctionYoungsModulus, GreensFunctionSource,
   HomogeneousMaterial, GreensFunctionDomain, Clamped, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,

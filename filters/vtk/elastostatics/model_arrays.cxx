@@ -239,7 +239,8 @@ void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
   }
 }
 
-constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell", "given" };
+constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell", "given",
+  "unsupported" };
 
 Domain domainOf(vtkPolyData* surface)
 {
@@ -247,6 +248,25 @@ Domain domainOf(vtkPolyData* surface)
     fieldString(surface, arrays::GreensFunctionDomain));
   return name == std::end(DomainNames) ? Domain::Interior
                                        : static_cast<Domain>(name - std::begin(DomainNames));
+}
+
+/// What the body's weight does, where the surface carries it.
+void readWeight(vtkPolyData* surface, GreensFunctionsInfo& info)
+{
+  if (hasField(surface, arrays::Density))
+  {
+    info.density = fieldNumber(surface, arrays::Density, "");
+  }
+  if (!hasField(surface, arrays::WeightResponse))
+  {
+    return;
+  }
+  const MatrixView weight = matrixOf(surface, arrays::WeightResponse, 1);
+  info.weightResponse.resize(3 * surface->GetNumberOfPoints(), 3);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    weight.array->GetTuple(axis, info.weightResponse.col(axis).data());
+  }
 }
 
 /// The Green's functions of the columns, from the matrices that the surface carries.
@@ -293,7 +313,9 @@ ElasticModel modelOf(vtkPolyData* surface, double smoothAngle, Domain domain)
                                     : findSmoothPatches(*mesh, isShell ? OnePatchAngle : smoothAngle);
   return ElasticModel(mesh, domain == Domain::Given ? Material(1, 0) : materialOf(surface),
     isShell ? shellConditionsOf(surface)
-            : BoundaryConditions(boundaryTypesOf(surface, domain != Domain::Interior)),
+      : domain == Domain::Unsupported
+      ? BoundaryConditions(std::vector<unsigned char>(surface->GetNumberOfPoints(), 0))
+      : BoundaryConditions(boundaryTypesOf(surface, domain != Domain::Interior)),
     std::move(patches), domain);
 }
 
@@ -318,6 +340,16 @@ void setGreensFunctions(
   }
   surface->GetFieldData()->AddArray(nodes);
   addPatchColumns(surface, info, result, rows);
+  if (info.weightResponse.size() > 0)
+  {
+    AlignedBuffer<double> weight(info.weightResponse.size());
+    std::copy_n(info.weightResponse.data(), weight.size(), weight.data());
+    addMatrix<vtkDoubleArray>(surface, arrays::WeightResponse, std::move(weight), rows);
+  }
+  if (info.density > 0)
+  {
+    setFieldNumber(surface, arrays::Density, info.density);
+  }
   vtkNew<vtkTypeUInt64Array> fingerprint;
   fingerprint->SetName(arrays::MeshFingerprint);
   fingerprint->InsertNextValue(info.fingerprint);
@@ -385,6 +417,7 @@ ServedModel servedModelOf(vtkPolyData* surface)
   info.reciprocal =
     fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
   info.source = fieldString(surface, arrays::GreensFunctionSource);
+  readWeight(surface, info);
 
   const std::shared_ptr<const GreensFunctions> stored = info.domain == Domain::HalfSpace
     ? std::make_shared<HalfSpaceGreensFunctions>(std::move(info), *served.mesh)

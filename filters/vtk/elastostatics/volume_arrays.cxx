@@ -75,6 +75,23 @@ vtkDataArray* cellArray(vtkUnstructuredGrid* grid, const char* name, int compone
   return array;
 }
 
+/// Of each tetrahedron; none where the grid has no such array.
+Eigen::VectorXd densitiesOf(vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* array = cellArray(grid, arrays::Density, 1);
+  if (!array)
+  {
+    return {};
+  }
+  const std::vector<vtkIdType> cells = tetrahedronCells(grid);
+  Eigen::VectorXd densities(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    densities[i] = array->GetComponent(cells[i], 0);
+  }
+  return densities;
+}
+
 Elasticity isotropic(const MaterialKey& values)
 {
   return Elasticity(Material(values[0], values[1]));
@@ -262,17 +279,19 @@ vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid)
 
 CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise)
 {
+  CellMaterials result;
+  result.densities = densitiesOf(grid);
   const MaterialArrays* kind = materialKindOf(grid);
   if (!kind)
   {
-    return { { Elasticity(otherwise) }, {} };
+    result.materials.emplace_back(otherwise);
+    return result;
   }
   std::vector<vtkDataArray*> present;
   for (const MaterialArrays::Array& array : kind->arrays)
   {
     present.push_back(grid->GetCellData()->GetArray(array.name));
   }
-  CellMaterials result;
   std::map<MaterialKey, int> numbers;
   for (vtkIdType cell : tetrahedronCells(grid))
   {
@@ -316,7 +335,8 @@ std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& 
   Fingerprint fingerprint;
   fingerprint.add(mesh.points().data(), sizeof(double) * mesh.points().size())
     .add(mesh.tetrahedra().data(), sizeof(int) * mesh.tetrahedra().size())
-    .add(materials.ofCell.data(), sizeof(int) * materials.ofCell.size());
+    .add(materials.ofCell.data(), sizeof(int) * materials.ofCell.size())
+    .add(materials.densities.data(), sizeof(double) * materials.densities.size());
   if (materials.ofCell.empty())
   {
     return fingerprint.value();

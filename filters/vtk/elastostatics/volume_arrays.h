@@ -33,6 +33,7 @@ struct CellMaterials
 {
   std::vector<Elasticity> materials; // each once
   std::vector<int> ofCell;           // #tetrahedra, empty where there is one material
+  Eigen::VectorXd densities;         // #tetrahedra, kg/m^3, empty where there is no such array
 };
 /// @param otherwise  where the grid has no such arrays.
 CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise);

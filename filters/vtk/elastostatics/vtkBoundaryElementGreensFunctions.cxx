@@ -45,7 +45,9 @@ void vtkBoundaryElementGreensFunctions::Compute(
 palpate::ElasticModel vtkBoundaryElementGreensFunctions::ModelOf(vtkPolyData* surface) const
 {
   const palpate::ElasticModel model = palpate::convert::modelOf(surface, this->SmoothAngle,
-    this->Domain == EXTERIOR ? palpate::Domain::Exterior : palpate::Domain::Interior);
+    this->Domain == EXTERIOR       ? palpate::Domain::Exterior
+      : this->Domain == UNSUPPORTED ? palpate::Domain::Unsupported
+                                    : palpate::Domain::Interior);
   return this->SupportPatch ? palpate::withSupportPatch(model) : model;
 }
 

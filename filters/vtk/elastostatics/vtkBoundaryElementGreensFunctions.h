@@ -88,17 +88,21 @@ public:
   ///@{
   /**
    * The material fills the inside of the surface (default), or the infinite space outside it; then a
-   * support is not needed and BoundaryType may be missing (all free).
+   * support is not needed and BoundaryType may be missing (all free). Or it fills the inside of bodies
+   * that nothing holds (palpate::removeRigidMotions): BoundaryType is not read, loads are balanced by
+   * tractions over the whole surface, and displacements counted from the body's mean motion.
    */
   enum DomainType
   {
     INTERIOR = 0,
-    EXTERIOR = 1
+    EXTERIOR = 1,
+    UNSUPPORTED = 2
   };
-  vtkSetClampMacro(Domain, int, INTERIOR, EXTERIOR);
+  vtkSetClampMacro(Domain, int, INTERIOR, UNSUPPORTED);
   vtkGetMacro(Domain, int);
   void SetDomainToInterior() { this->SetDomain(INTERIOR); }
   void SetDomainToExterior() { this->SetDomain(EXTERIOR); }
+  void SetDomainToUnsupported() { this->SetDomain(UNSUPPORTED); }
   ///@}
 
   ///@{

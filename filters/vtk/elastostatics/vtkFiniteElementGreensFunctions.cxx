@@ -30,6 +30,7 @@ void vtkFiniteElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Element: " << this->Element << "\n"
      << indent << "CellSize: " << this->CellSize << "\n"
+     << indent << "Unsupported: " << this->Unsupported << "\n"
      << indent << "EstimateError: " << this->EstimateError << "\n";
 }
 
@@ -48,8 +49,10 @@ void vtkFiniteElementGreensFunctions::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
   namespace convert = palpate::convert;
+  const palpate::Domain domain =
+    this->Unsupported ? palpate::Domain::Unsupported : palpate::Domain::Interior;
   const auto modelOf = [&](vtkPolyData* surface)
-  { return convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior); };
+  { return convert::modelOf(surface, this->SmoothAngle, domain); };
   const palpate::ElasticModel given = modelOf(input);
   palpate::FiniteElementOptions options;
   options.element = static_cast<palpate::SolidElement>(this->Element);
@@ -86,7 +89,7 @@ void vtkFiniteElementGreensFunctions::Compute(
       [&](vtkPolyData* arrays)
       {
         const palpate::SolidBody body(given.mesh(), std::move(mesh), std::move(materials.materials),
-          std::move(materials.ofCell));
+          std::move(materials.ofCell), std::move(materials.densities));
         this->Filled = nullptr;
         compute(given, body, "", arrays);
       });

@@ -16,6 +16,7 @@
  *   second is made square to the first);
  * - `ElasticityTensor` (21: the upper triangle, row by row, of the stiffness of xx, yy, zz, yz, xz, xy
  *   with engineering shear strains).
+ * `Density` (1, kg/m^3) says how heavy each is; without it they weigh alike.
  * Without them, and without input 1, the material of the field data fills the body.
  *
  * Without input 1 the surface is filled by CGAL's Mesh_3, with all its vertices kept. Where not all its
@@ -68,6 +69,16 @@ public:
 
   ///@{
   /**
+   * Nothing holds the body, and BoundaryType is not read: as Domain UNSUPPORTED of
+   * vtkBoundaryElementGreensFunctions. Default off.
+   */
+  vtkSetMacro(Unsupported, bool);
+  vtkGetMacro(Unsupported, bool);
+  vtkBooleanMacro(Unsupported, bool);
+  ///@}
+
+  ///@{
+  /**
    * Estimate the relative error (palpate::estimateError) on a coarser mesh, or below 200 vertices on a
    * finer one, that is filled anew; not for bodies of several materials. Default on.
    */
@@ -88,6 +99,7 @@ private:
 
   int Element = QUADRATIC;
   double CellSize = 0;
+  bool Unsupported = false;
   bool EstimateError = true;
   vtkSmartPointer<vtkPolyData> Filled; // the surface that what is kept belongs to
 };

@@ -65,6 +65,38 @@ std::string vtkInteractorStyleHaptic::GetProbeName(int probe)
   return probe >= 0 && probe < static_cast<int>(probes.size()) ? probes[probe].name : "";
 }
 
+double vtkInteractorStyleHaptic::GetProbeVonMisesStress(int probe)
+{
+  const palpate::ProbeReading* reading = this->Internals->Session.ProbeInside(probe);
+  return reading ? reading->vonMises : 0;
+}
+
+double vtkInteractorStyleHaptic::GetProbeDisplacementGradient(int probe)
+{
+  const palpate::ProbeReading* reading = this->Internals->Session.ProbeInside(probe);
+  return reading ? reading->gradient : 0;
+}
+
+double vtkInteractorStyleHaptic::GetLargestProbeVonMisesStress(int probe)
+{
+  const palpate::ProbeReading* reading = this->Internals->Session.ProbeInside(probe);
+  return reading ? reading->largestVonMises : 0;
+}
+
+double vtkInteractorStyleHaptic::GetLargestProbeDisplacementGradient(int probe)
+{
+  const palpate::ProbeReading* reading = this->Internals->Session.ProbeInside(probe);
+  return reading ? reading->largestGradient : 0;
+}
+
+double vtkInteractorStyleHaptic::GetProbeLimitTime(int probe)
+{
+  const palpate::ProbeReading* reading = this->Internals->Session.ProbeInside(probe);
+  return reading && reading->exceededTick >= 0
+    ? reading->exceededTick / this->Internals->Session.Scene().servo.rate
+    : -1;
+}
+
 void vtkInteractorStyleHaptic::GetProbeDisplacement(int probe, double displacement[3])
 {
   const Eigen::Matrix3Xd& all = this->Internals->Session.ProbeDisplacements();

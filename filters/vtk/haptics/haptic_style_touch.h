@@ -23,6 +23,7 @@ struct vtkInteractorStyleHaptic::Touch
   Eigen::Vector3d Offset; ///< of the tool's position, from its place that is nearest to the surface
   double Depth = 0;       ///< along the view
   std::vector<char> Touched;
+  std::vector<char> Exceeded; ///< a probe's limit
   std::vector<std::string> Faults;
   std::vector<std::string> Warnings; ///< told
 };

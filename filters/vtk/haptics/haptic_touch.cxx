@@ -255,6 +255,7 @@ void HapticTouch::Prepare()
     }
     hands.push_back(std::move(hand));
   }
+  this->Loaded.Bodies[0].probeRows = rowsOfProbesInside(this->Described(), this->Loaded.Bodies[0]);
   this->Session = std::make_unique<TouchSession>(this->Described(), this->Loaded.Bodies, meshes);
   this->Cautions = warningsOf(this->Described(), this->Loaded.Bodies);
   this->None.setZero(3, this->Loaded.Bodies[0].mesh->vertexCount());

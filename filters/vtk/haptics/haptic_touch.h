@@ -76,6 +76,8 @@ public:
   std::string Fault(int tool) const;
   /// A line for each tool and fault that there was: how often, and when first.
   std::string FaultTable() const;
+  /// What a probe of the scene inside the first model reads by the newest snapshot; null for others.
+  const ProbeReading* ProbeInside(int probe) const;
   /// m, of the scene's probes, 3 by their number; zero before the first frame.
   const Eigen::Matrix3Xd& ProbeDisplacements() const;
   std::string Status() const;

@@ -37,13 +37,13 @@ void HapticTouch::SetFriction(double mu)
   {
     return;
   }
-  if (auto* points = dynamic_cast<PointTouch*>(this->Session->model().get()))
+  if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
   {
     points->setFriction(mu);
   }
   else
   {
-    static_cast<ToolTouch&>(*this->Session->model()).setFriction(mu);
+    static_cast<ToolTouch&>(this->Session->contact()).setFriction(mu);
   }
 }
 
@@ -62,7 +62,7 @@ void HapticTouch::SetMaskRadius(double radius)
     "the radius of a mask must be from 0 to 1e6 m", radius);
   this->Described().effects.maskRadius = radius;
   this->Described().effects.maskRadiusEdges = 0;
-  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
+  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
   {
     points->setStiffness(this->NewStiffness());
   }
@@ -78,14 +78,14 @@ void HapticTouch::SetStiffnessScale(double scale)
     return;
   }
   this->Session->setStiffnessScale(scale);
-  if (auto* points = dynamic_cast<PointTouch*>(this->Session->model().get()))
+  if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
   {
     const double modulus = this->Loaded.Bodies[0].greens->info().material.youngsModulus();
     points->setStiffness(points->stiffness()->withYoungsModulus(modulus * scale));
   }
   else
   {
-    static_cast<ToolTouch&>(*this->Session->model()).setStiffnessScale(scale);
+    static_cast<ToolTouch&>(this->Session->contact()).setStiffnessScale(scale);
   }
 }
 
@@ -94,7 +94,7 @@ void HapticTouch::SetRigidStiffness(double stiffness)
   requireRange(stiffness >= 0 && stiffness <= LargestStiffness,
     "the rigid stiffness must be from 0 to 1e15 N/m", stiffness);
   this->Described().effects.stiffnessLimit = stiffness;
-  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(this->Session->model().get()) : nullptr)
+  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
   {
     points->setStiffness(points->stiffness()->withRigidStiffness(stiffness));
   }

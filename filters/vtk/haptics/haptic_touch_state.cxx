@@ -44,6 +44,22 @@ Wrench HapticTouch::Rendered(int tool) const
     : kNoWrench;
 }
 
+const ProbeReading* HapticTouch::ProbeInside(int probe) const
+{
+  const std::vector<SceneProbe>& probes = this->Described().effects.probes;
+  const std::vector<ProbeReading>& readings = this->Snapshot().contact.probes;
+  std::size_t number = 0;
+  for (int i = 0; i < static_cast<int>(probes.size()); ++i)
+  {
+    if (i == probe)
+    {
+      return probes[i].isInside && number < readings.size() ? &readings[number] : nullptr;
+    }
+    number += probes[i].isInside;
+  }
+  return nullptr;
+}
+
 std::string HapticTouch::Fault(int tool) const
 {
   const auto& tools = this->Snapshot().tools;

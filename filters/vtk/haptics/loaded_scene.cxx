@@ -3,6 +3,7 @@
 
 #include "loaded_scene.h"
 
+#include "bem/interior_probes.h"
 #include "conversion.h"
 #include "haptics/glove_device.h"
 #include "haptics/hid_bus.h"
@@ -62,6 +63,19 @@ SceneBody bodyOf(vtkPolyData* model)
   SceneBody body{ served.greens, served.mesh, served.smoothPatches };
   requireTouchable(body);
   return body;
+}
+
+std::shared_ptr<const ProbeRows> rowsOfProbesInside(const Scene& scene, const SceneBody& body)
+{
+  const Eigen::Matrix3Xd points = placesInside(scene);
+  if (points.cols() == 0)
+  {
+    return nullptr;
+  }
+  const GreensFunctionsInfo& info = body.greens->info();
+  const ElasticModel model(
+    body.mesh, info.material, info.conditions, body.smoothPatches, info.domain);
+  return std::make_shared<const ProbeRows>(probeRows(*body.greens, model, points));
 }
 
 LoadedScene loadScene(const std::string& fileName)

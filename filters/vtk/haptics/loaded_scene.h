@@ -31,6 +31,9 @@ LoadedScene mouseScene();
 LoadedScene loadScene(const std::string& fileName);
 SceneBody bodyOf(vtkPolyData* model);
 
+/// Those of the scene's probes inside its first model; null without any.
+std::shared_ptr<const ProbeRows> rowsOfProbesInside(const Scene& scene, const SceneBody& body);
+
 /// A tool to draw and, if it is a mesh, to touch with.
 struct LoadedTool
 {

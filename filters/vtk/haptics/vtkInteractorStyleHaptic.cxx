@@ -181,6 +181,7 @@ void vtkInteractorStyleHaptic::Prepare()
     touch.View.AddTool(touch.Session.Look(static_cast<int>(tool)));
   }
   touch.Touched.assign(touch.Session.Scene().tools.size(), false);
+  touch.Exceeded.assign(touch.Session.Scene().effects.probes.size(), false);
   touch.Faults.assign(touch.Session.Scene().tools.size(), "");
   touch.Shown = true;
   if (!this->Interactor)
@@ -290,6 +291,18 @@ void vtkInteractorStyleHaptic::Announce()
     if (failed)
     {
       this->InvokeEvent(FaultEvent, &number);
+    }
+  }
+  for (std::size_t probe = 0; probe < touch.Exceeded.size(); ++probe)
+  {
+    const palpate::ProbeReading* reading = touch.Session.ProbeInside(static_cast<int>(probe));
+    const bool isExceeded = reading && reading->exceededTick >= 0;
+    const bool isNew = isExceeded && !touch.Exceeded[probe];
+    touch.Exceeded[probe] = isExceeded;
+    int number = static_cast<int>(probe);
+    if (isNew)
+    {
+      this->InvokeEvent(ThresholdEvent, &number);
     }
   }
 }

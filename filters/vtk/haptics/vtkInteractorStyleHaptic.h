@@ -45,13 +45,15 @@ public:
 
   /**
    * Events that an observer hears of from Update(): a tool begins or ends to touch, a device or solve
-   * fails (GetFault tells how).
+   * fails (GetFault tells how), a probe inside the body exceeds one of its limits for the first time. Its
+   * call data is the number of the tool or probe, an int.
    */
   enum HapticEvents
   {
     ContactBeginEvent = 11001,
     ContactEndEvent,
-    FaultEvent
+    FaultEvent,
+    ThresholdEvent
   };
 
   /**
@@ -232,6 +234,23 @@ public:
   std::string GetProbeName(int probe);
   void GetProbeDisplacement(int probe, double displacement[3]);
   ///@}
+
+  ///@{
+  /**
+   * Of a scene's probe inside the body, by contact alone, at the last Update and the largest of any tick
+   * up to there: von Mises stress (Pa) and spectral norm of the displacement gradient, from 0.1 of which
+   * on linear theory is not to be trusted. 0 for a probe on the surface.
+   */
+  double GetProbeVonMisesStress(int probe);
+  double GetProbeDisplacementGradient(int probe);
+  double GetLargestProbeVonMisesStress(int probe);
+  double GetLargestProbeDisplacementGradient(int probe);
+  ///@}
+
+  /**
+   * When, in seconds of the servo loop, a probe's limit was first exceeded; -1 if it was not.
+   */
+  double GetProbeLimitTime(int probe);
 
   /**
    * A line for each tool and kind of fault up to the last Update: how many ticks it lasted, and its first

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <read_files.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkElasticFoundation.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "commands.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+struct Options {
+  std::string input, output;
+  double stiffness = 0, shear = -1;
+  std::vector<double> springs;  // four each: place and stiffness
+};
+
+/// Adds springs at the vertices nearest to their places to those that the surface has.
+void addSprings(vtkPolyData* surface, const std::vector<double>& springs) {
+  if (springs.empty()) return;
+  if (springs.size() % 4 != 0)
+    throw std::invalid_argument("--spring takes three coordinates and a stiffness a spring");
+  const char* const name = "SpringStiffness";
+  if (surface->GetPointData()->HasArray(name))
+    throw std::invalid_argument(
+        "the model has springs of its own, in the array SpringStiffness: leave --spring out");
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(surface->GetNumberOfPoints());
+  array->FillValue(0);
+  for (std::size_t i = 0; i < springs.size(); i += 4) {
+    const vtkIdType vertex = surface->FindPoint(const_cast<double*>(&springs[i]));
+    if (vertex < 0)
+      throw std::invalid_argument("--spring has no place: its coordinates are not finite");
+    array->SetValue(vertex, array->GetValue(vertex) + springs[i + 3]);
+  }
+  surface->GetPointData()->AddArray(array);
+}
+
+}  // namespace
+
+void addFoundation(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "foundation", "Put a model on springs: an elastic foundation in place of its support");
+  command
+      ->add_option("input", options->input,
+                   "A model from `palpate precompute`; where a support is to give way, made with "
+                   "--support-columns")
+      ->required();
+  requireWritable(
+      command->add_option("output", options->output, "The model on springs, .vtp")->required(),
+      "models", ".vtp");
+  command->add_option("--stiffness", options->stiffness,
+                      "Of the foundation under fixed vertices, along the normal, Pa/m");
+  command->add_option("--shear", options->shear, "Along the surface, Pa/m; by default the same");
+  command
+      ->add_option("--spring", options->springs,
+                   "Springs to ground at the nearest vertex, the same in all directions, N/m")
+      ->type_name("X Y Z K ...");
+  command->footer(
+      "  palpate precompute kidney.vtp model.vtp --support-columns\n"
+      "  palpate foundation model.vtp soft.vtp --stiffness 2e6 --shear 5e5");
+  command->callback([options, command] {
+    for (const char* option : {"--stiffness", "--shear"})
+      if (command->count(option) > 0 &&
+          !((option == std::string("--shear") ? options->shear : options->stiffness) >= 0))
+        throw std::invalid_argument(std::string(option) + " must be at least 0 Pa/m");
+    if (command->count("--shear") > 0 && command->count("--stiffness") == 0)
+      throw std::invalid_argument("--shear goes with --stiffness: give that, too");
+    const auto surface = readSurface(options->input);
+    addSprings(surface, options->springs);
+    vtkNew<vtkElasticFoundation> filter;
+    filter->SetInputData(surface);
+    filter->SetNormalStiffness(options->stiffness);
+    filter->SetShearStiffness(options->shear);
+    const auto model = run(filter);
+    writeSurface(model, options->output);
+    for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
+      printRow("made by", source);
+    printRow("reciprocity defect", number(fieldNumber(model, "ReciprocityDefect", -1), 3));
+    const double rocking = fieldNumber(model, "RockingCompliance", -1);
+    if (rocking >= 0) printRow("rocking compliance, rad/(N m)", number(rocking, 3));
+    printWarnings(model);
+  });
+}
+
+}  // namespace palpate::app
