@@ -3,6 +3,7 @@
 """What bodies do where they are touched."""
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
 from .arguments import (
@@ -54,7 +55,8 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None,
         vertex; 0 for a vertex that is moved itself.
     foundation : float, optional
         N/m per square metre: all fixed vertices not in `nodes` rest on springs of this stiffness times
-        their area instead, all directions alike. Needs their columns.
+        their area instead, all directions alike: a third of the triangles all of whose corners rest on
+        them, or of all where there is none, as in `palpate.foundation`. Needs their columns.
 
     Returns
     -------
@@ -84,11 +86,11 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None,
     if stiffnesses.shape != nodes.shape:
         raise Error(f"springs must be {nodes.size} stiffnesses, not {'x'.join(map(str, stiffnesses.shape))}")
     if foundation is not None:
-        areas = positive(foundation, "foundation") * array(model, "VertexArea")
         rest = np.setdiff1d(np.flatnonzero(array(model, "BoundaryType")), nodes)
+        areas = positive(foundation, "foundation") * foundation_areas(model, rest)
         nodes = np.concatenate([nodes, rest])
         values = np.concatenate([values, np.zeros((rest.size, 3))])
-        stiffnesses = np.concatenate([stiffnesses, areas[rest]])
+        stiffnesses = np.concatenate([stiffnesses, areas])
     types = np.ones(nodes.size)
     tractions = np.zeros_like(values)
     if free_tractions is not None:
@@ -120,6 +122,17 @@ def solve(model, nodes, displacements, free_tractions=None, face_tractions=None,
     solver.SetInputData(surface)
     solver.SetConstraintsData(table)
     return run(solver)
+
+
+def foundation_areas(model, vertices):
+    """What of a foundation under some vertices is each one's, m^2."""
+    corners = vtk_to_numpy(model.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    points = vtk_to_numpy(model.GetPoints().GetData()).astype(float)[corners]
+    size = np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]), axis=1) / 2
+    is_held = np.isin(corners, vertices).all(axis=1)
+    count = model.GetNumberOfPoints()
+    within = np.bincount(corners[is_held].ravel(), np.repeat(size[is_held] / 3, 3), count)
+    return np.where(within > 0, within, array(model, "VertexArea"))[vertices]
 
 
 def press(model, point, displacement=None, force=None, radius=None, mask="linear", *,

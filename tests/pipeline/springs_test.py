@@ -8,7 +8,7 @@ import numpy as np
 
 import palpate
 from pipeline.capacitance_solve_test import by_height, model_with_all_columns, solver, table
-from support.surfaces import failure_of, points_of
+from support.surfaces import failure_of, points_of, triangles_of
 
 NONE = np.zeros((0, 3))
 
@@ -25,7 +25,9 @@ class Foundation(unittest.TestCase):
     def test_of_next_to_nothing_lets_the_body_move_as_a_rigid_one_on_springs(self):
         model = model_with_all_columns()
         fixed = palpate.array(model, "BoundaryType") == 1
-        area = palpate.array(model, "VertexArea")[fixed].sum()
+        corners = points_of(model)[triangles_of(model)[fixed[triangles_of(model)].all(axis=1)]]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = np.linalg.norm(across, axis=1).sum() / 2  # of what rests on it all over
         soft = 1e-2  # N/m^3, a body of 1e4 Pa and 1 m
         moved = palpate.solve(model, [], NONE, free_tractions=loads(model, (0, 0, -3)), foundation=soft)
         rise = palpate.array(moved, "Displacement")[:, 2]
