@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
+#include <optional>
 #include <utility>
 
+#include "fem/hat_products.h"
 #include "greens/rigid_motions.h"
 #include "model/support.h"
 #include "sentence.h"
@@ -96,13 +97,13 @@ class Condensation {
       }
     Sparse products(free_.size(), free_.size());
     products.setFromTriplets(freeFree.begin(), freeFree.end());
-    products_.compute(products);
+    products_.emplace(products);
     inverseAreas_.resize(free_.size());
     for (std::size_t i = 0; i < free_.size(); ++i)
       inverseAreas_[i] = system_.length * system_.length / mesh_.vertexAreas()[free_[i]];
     toFixed_.resize(free_.size(), system_.fixedVertices.size());
     toFixed_.setFromTriplets(freeFixed.begin(), freeFixed.end());
-    shared_ = products_.solve(Eigen::MatrixXd(toFixed_));
+    shared_ = products_->solve(Eigen::MatrixXd(toFixed_));
   }
 
   /// By fixed vertices, and not by springs.
@@ -159,7 +160,7 @@ class Condensation {
   /// R (see computeFiniteElementGreensFunctions) with this share of M^-1, times #free rows.
   Eigen::MatrixXd weighted(double share, const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd result = (1 - share) * (inverseAreas_.asDiagonal() * rows);
-    if (share > 0) result += share * products_.solve(rows);
+    if (share > 0) result += share * products_->solve(rows);
     return result;
   }
 
@@ -274,7 +275,7 @@ class Condensation {
     for (int k = 0; k < 3; ++k) {
       Eigen::MatrixXd shown = component(means, k);
       if (isHeld()) shown -= toFixed_ * component(held, k);
-      const Eigen::MatrixXd found = products_.solve(shown);
+      const Eigen::MatrixXd found = products_->solve(shown);
       largest = std::max(largest, (found - component(expected, k)).cwiseAbs().maxCoeff());
     }
     return largest / expected.cwiseAbs().maxCoeff();
@@ -314,7 +315,7 @@ class Condensation {
   const SurfaceMesh& mesh_;
   std::vector<int> freeNumber_, fixedNumber_, free_;
   int hatRows_;
-  Eigen::SimplicialLLT<Sparse> products_;
+  std::optional<HatProducts> products_;
   Eigen::VectorXd inverseAreas_;
   Sparse toFixed_;          // products of free vertices' hats with fixed ones'
   Eigen::MatrixXd shared_;  // M^-1 toFixed_
