@@ -83,7 +83,8 @@ void addSweep(CLI::App& command, AccuracyOptions& o) {
       ->check(CLI::Range(1, 9));
   command.add_option("--knobs", o.knobs,
                      "What is varied: level, tolerance, solver, collocation, combined, "
-                     "reciprocity, edges, support, storage, columns, rows, mask, contact; by "
+                     "reciprocity, edges, support, storage, columns, method, rows, mask, "
+                     "contact; by "
                      "default all that the query has");
   command.add_option("--repeats", o.repeats, "Runs of every setting, in turn")
       ->check(CLI::Range(2, 1000))

@@ -29,6 +29,7 @@ std::string meaningOf(const std::string& knob) {
        "Factored in double, in float and refined in double (mixed), or in float; or iterated in "
        "double."},
       {"collocation", "The integral equation at the vertices alone, as in the paper."},
+      {"method", "Finite elements in tetrahedra that fill the surface, quadratic or linear."},
       {"combined", "Vertex collocation and float arithmetic together."},
       {"reciprocity", "The compliance symmetrised as it is served, or raw."},
       {"edges",

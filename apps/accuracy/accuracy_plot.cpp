@@ -13,8 +13,9 @@ namespace {
 constexpr double kPlotWidth = 700, kPlotHeight = 470, kLegendWidth = 230;
 constexpr const char *kInk = "#22222a", *kUncertain = "#a0a0aa";
 /// Told apart by most eyes (P. Tol's bright and vibrant schemes).
-const char* const kColours[] = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377",
-                                "#ee7733", "#009988", "#332288", "#cc3311", "#999933", "#bbbbbb"};
+const char* const kColours[] = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee",
+                                "#aa3377", "#ee7733", "#009988", "#332288", "#cc3311",
+                                "#999933", "#bbbbbb", "#882255", "#44aa99"};
 
 /// Whether the trials of a series follow one another, so that a line through them means something.
 bool isSequence(const TrialResult& result) {

@@ -8,6 +8,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "accuracy/tetrahedra.h"
+#include "model/elasticity.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -25,6 +27,7 @@ class Knobs {
   void add(const std::string& knob) {
     static const std::map<std::string, void (Knobs::*)()> ways{
         {"level", &Knobs::addLevels},
+        {"method", &Knobs::addMethods},
         {"tolerance", &Knobs::addTolerances},
         {"solver", &Knobs::addSolvers},
         {"storage", &Knobs::addStorages},
@@ -67,6 +70,16 @@ class Knobs {
       setting.level = level;
       add(std::to_string(level), setting, true, {}, "level, all else as by default");
     }
+  }
+
+  void addMethods() {
+    addOnLevels(
+        "quadratic tetrahedra",
+        [](Setting& setting) { setting.method = Method::QuadraticTetrahedra; }, false);
+    if (body_.material().poissonRatio() < Elasticity::kSplitFrom)  // they lock beyond
+      addOnLevels(
+          "linear tetrahedra", [](Setting& setting) { setting.method = Method::LinearTetrahedra; },
+          false);
   }
 
   /// Powers of ten down to the last, which is the best.
@@ -185,6 +198,7 @@ std::vector<std::string> knobsOf(QueryKind query, bool isPointSource) {
   std::vector<std::string> knobs{"level",       "tolerance", "solver",  "collocation", "combined",
                                  "reciprocity", "edges",     "support", "storage"};
   if (!isPointSource) knobs.push_back("columns");
+  if (!isPointSource && canUseTetrahedra()) knobs.push_back("method");
   if (query == QueryKind::Compliance) {
     knobs.push_back("rows");
     knobs.push_back("mask");

@@ -31,10 +31,14 @@ enum class TractionJumps {
   Support,     ///< at sharp edges, and round the support: its triangles are patches of their own
 };
 
+/// What Green's functions are computed by.
+enum class Method { BoundaryElements, QuadraticTetrahedra, LinearTetrahedra };
+
 /// One way to an answer: a value of every knob.
 struct Setting {
   // What the Green's functions are computed by.
   int level = 1;
+  Method method = Method::BoundaryElements;
   double tolerance = BoundaryElementOptions().tolerance;
   Precision precision = Precision::Double;
   LinearSolver solver = LinearSolver::Direct;
@@ -50,7 +54,7 @@ struct Setting {
 
   /// Equal for settings that share their Green's functions.
   auto precomputeKey() const {
-    return std::tuple(level, tolerance, precision, solver, collocation, jumps, allColumns,
+    return std::tuple(level, method, tolerance, precision, solver, collocation, jumps, allColumns,
                       reciprocal, radius);
   }
   auto key() const {

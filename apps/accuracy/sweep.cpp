@@ -10,6 +10,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "accuracy/tetrahedra.h"
 #include "greens/dense_greens_functions.h"
 
 namespace palpate::app {
@@ -48,6 +49,11 @@ std::string failureOf(const Work& work) {
 ComputedGreensFunctions computeGreens(const BodyLevels& body, const Query& query,
                                       const Setting& setting, int threads,
                                       const ProgressCallback& progress) {
+  if (setting.method != Method::BoundaryElements)
+    return greensByTetrahedra(
+        body.model(setting.level, setting.jumps),
+        setting.method == Method::LinearTetrahedra ? SolidElement::Linear : SolidElement::Quadratic,
+        setting.reciprocal, query.columns(setting), progress);
   BoundaryElementOptions options;
   options.precision = setting.precision;
   options.solver = setting.solver;

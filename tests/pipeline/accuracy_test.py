@@ -86,7 +86,7 @@ class Compliance(unittest.TestCase):
         table, _ = compliances()
         self.assertEqual(list(dict.fromkeys(row["knob"] for row in table)),
                          ["level", "tolerance", "solver", "collocation", "combined", "reciprocity",
-                          "support", "storage", "columns", "rows", "mask"])  # a sphere has no sharp edges
+                          "support", "storage", "columns", "method", "rows", "mask"])  # a sphere has no sharp edges
         for row in table:
             self.assertEqual(row["failure"], "")
             self.assertGreaterEqual(int(row["runs"]), 2)
