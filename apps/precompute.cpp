@@ -180,6 +180,7 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--support-columns", "bem fem shell"},
                                    {"--smooth-angle", "bem fem"},
                                    {"--patch-columns", "bem fem"},
+                                   {"--threads", "bem halfspace"},
                                    {"--element", "fem"},
                                    {"--cell-size", "fem"},
                                    {"--thickness", "shell"},
@@ -203,6 +204,7 @@ void setColumns(vtkGreensFunctionsAlgorithm* filter, const std::vector<vtkIdType
 vtkSmartPointer<vtkGreensFunctionsAlgorithm> halfSpace(const Options& o) {
   auto filter = vtkSmartPointer<vtkHalfSpaceGreensFunctions>::New();
   filter->SetReciprocal(!o.raw);
+  filter->SetNumberOfThreads(o.threads);
   return filter;
 }
 

@@ -100,7 +100,8 @@ void addBar(vtkRenderer* renderer, vtkScalarsToColors* colours, const std::strin
   bar->SetTitle(title.c_str());
   bar->SetNumberOfLabels(5);
   // Three digits, but thousands in full: exponents would not fit.
-  bar->SetLabelFormat(largestIn(colours) >= 1e3 && largestIn(colours) < 1e5 ? "%.0f" : "%.3g");
+  const double largest = largestIn(colours);  // labels of more characters would not fit
+  bar->SetLabelFormat(largest >= 1e3 && largest < 1e5 ? "%.0f" : largest < 1e-3 ? "%.2g" : "%.3g");
   bar->SetVerticalTitleSeparation(12);
   bar->SetTextPad(6);
   bar->UnconstrainedFontSizeOn();
