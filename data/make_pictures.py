@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
-from vtkmodules.vtkImagingCore import vtkExtractVOI, vtkImageAppend, vtkImageResize
+from vtkmodules.vtkFiltersCore import vtkImageAppend
+from vtkmodules.vtkImagingCore import vtkExtractVOI, vtkImageResize
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 import palpate
@@ -169,11 +170,11 @@ def main():
         aside = Path(name)
         body = solid()
         presses = {
-            "bem": (kidney(), (0, 0, 0.03), (0, 0, -0.8), 0.015, (0.4, -0.9, 0.5)),
-            "fem": (body, (0.07, 0.05, 0.06), (0, 0, -6), 0.02, (0.5, -1, 0.8)),
-            "shell": (shell(), (0.19, 0.1, 0), (0, 0, -60), 0.03, (0.5, -1, 0.6)),
+            "bem": (kidney(), (0, 0, 0.03), (0, 0, -1.2), 0.015, (0.4, -0.9, 0.5)),
+            "fem": (body, (0.07, 0.05, 0.06), (0, 0, -4), 0.02, (0.5, -1, 0.8)),
+            "shell": (shell(), (0.19, 0.1, 0), (0, 0, -10), 0.03, (0.5, -1, 0.6)),
             "halfspace": (half_space(), (0, 0, 0), (0, 0, -4), 0.02, (0.5, -1, 0.8)),
-            "imported": (imported(body), (0.07, 0.05, 0.06), (0, 0, -6), 0.02, (0.5, -1, 0.8))}
+            "imported": (imported(body), (0.07, 0.05, 0.06), (0, 0, -4), 0.02, (0.5, -1, 0.8))}
         views = []
         for method, (model, at, force, radius, view) in presses.items():
             file, image = aside / f"{method}.vtp", aside / f"{method}.png"
@@ -187,7 +188,7 @@ def main():
         for method in ("bem", "fem"):
             file, image = aside / f"kidney_{method}.vtp", aside / f"kidney_{method}.png"
             palpate.write(kidney(method=method), str(file))
-            run("stiffness", file, "--radius", 0.016, "--image", image, "--range", 150, 900, "--view", 0.4, -0.9,
+            run("stiffness", file, "--radius", 0.016, "--image", image, "--range", 150, 450, "--view", 0.4, -0.9,
                 0.5)
             views.append(resized(picture(image), 600, 450))
         write_side_by_side(views, options.folder / "methods_agree.png")
