@@ -43,7 +43,8 @@ struct Options {
   std::string subdivision = "flat";
   std::string element = "quadratic";
   double cellSize = 0;
-  double thickness = 0;  // 0 for that of the surface's array
+  std::vector<double> probes;  // three each
+  double thickness = 0;        // 0 for that of the surface's array
   bool hinged = false;
   bool raw = false, patchColumns = false, supportPatch = false, noEstimate = false;
   std::vector<vtkIdType> columns;
@@ -149,6 +150,13 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(finite);
+  command
+      .add_option(
+          "--probe", o.probes,
+          "Places inside whose displacement and stress are to be known, of several materials, "
+          "too")
+      ->type_name("X Y Z ...")
+      ->group(finite);
   const char* const shells = "Plates and shells";
   command
       .add_option("--thickness", o.thickness,
@@ -183,6 +191,7 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--threads", "bem halfspace"},
                                    {"--element", "fem"},
                                    {"--cell-size", "fem"},
+                                   {"--probe", "fem"},
                                    {"--thickness", "shell"},
                                    {"--hinged", "shell"}};
 
@@ -213,6 +222,10 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> finiteElements(const Options& o) {
   filter->SetElement(o.element == "quadratic");
   filter->SetCellSize(o.cellSize);
   filter->SetUnsupported(o.domain == "unsupported");
+  if (o.probes.size() % 3 != 0)
+    throw std::invalid_argument("--probe takes three coordinates a place");
+  for (std::size_t i = 0; i < o.probes.size(); i += 3)
+    filter->AddProbe(o.probes[i], o.probes[i + 1], o.probes[i + 2]);
   filter->SetEstimateError(!o.noEstimate);
   filter->SetReciprocal(!o.raw);
   filter->SetSmoothAngle(o.smoothAngle);

@@ -101,7 +101,7 @@ void addBar(vtkRenderer* renderer, vtkScalarsToColors* colours, const std::strin
   bar->SetNumberOfLabels(5);
   // Three digits, but thousands in full: exponents would not fit.
   const double largest = largestIn(colours);  // labels of more characters would not fit
-  bar->SetLabelFormat(largest >= 1e3 && largest < 1e5 ? "%.0f" : largest < 1e-3 ? "%.2g" : "%.3g");
+  bar->SetLabelFormat(largest >= 1e3 && largest < 1e5 ? "%.0f" : largest < 0.1 ? "%.2g" : "%.3g");
   bar->SetVerticalTitleSeparation(12);
   bar->SetTextPad(6);
   bar->UnconstrainedFontSizeOn();

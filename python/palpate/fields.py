@@ -53,7 +53,8 @@ def probe(pressed, points, *, threads=0, progress=None):
     Parameters
     ----------
     pressed : vtkPolyData
-        From `press` or `solve`, of one isotropic material, whatever method computed the model.
+        From `press` or `solve`, of one isotropic material, whatever method computed the model; or of
+        several with these points among its `probes` (see `precompute`).
     points : array_like or vtkPointSet
         k by 3, or data of k points. Use a `vtkInteriorProbe` where many contacts are probed at the same
         places: it keeps the integrals.

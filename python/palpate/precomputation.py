@@ -20,6 +20,7 @@ from .arguments import (
     numbers,
     progress_callback,
     surface_of,
+    vectors,
     vertex_list,
     whole_number,
 )
@@ -46,7 +47,8 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
                estimate_error=True, max_levels=None, max_vertices=None, subdivision=None,
-               volume=None, element="quadratic", cell_size=0.0, thickness=None, clamped=True):
+               volume=None, element="quadratic", cell_size=0.0, probes=None, thickness=None,
+               clamped=True):
     """Compute the Green's functions of an elastic body from its surface.
 
     Parameters
@@ -65,7 +67,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         n values, where the body is held. None takes the surface's point array `BoundaryType`.
     method : {"bem", "fem", "halfspace", "shell"}
         Boundary elements; finite elements in tetrahedra (`columns`, `reciprocal`, `smooth_angle`,
-        `patch_columns`, `progress`, `volume`, `element` and `cell_size` go with it); the half-space below a flat
+        `patch_columns`, `progress`, `volume`, `element`, `cell_size` and `probes` go with it); the half-space below a flat
         surface: no support, no matrix, each Green's function computed exactly when it is asked for
         (`columns`, `reciprocal`, `progress` and `threads` go with it); or a plate or thin shell about the
         surface (`columns`, `reciprocal`, `progress`, `thickness` and `clamped` go with it).
@@ -126,6 +128,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     cell_size : float
         Largest circumradius of the tetrahedra that the surface is filled with, m; 0 for as the surface's
         triangles ask for.
+    probes : array_like, optional
+        k by 3 places inside a body of finite elements, m, whose fields are to be known under any contact:
+        `probe` and scenes look into bodies of several or anisotropic materials there and nowhere else.
     thickness : float or array_like of float, optional
         Of a shell, m: one number or n, linear between vertices. None takes the surface's point or cell
         array `Thickness`.
@@ -173,7 +178,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
         integration_tolerance=integration_tolerance, support_patch=support_patch,
         estimate_error=estimate_error, max_levels=max_levels, max_vertices=max_vertices,
-        subdivision=subdivision, volume=volume, element=element, cell_size=cell_size,
+        subdivision=subdivision, volume=volume, element=element, cell_size=cell_size, probes=probes,
         thickness=thickness, clamped=clamped)
     refuse_foreign(method, settings)
     if method == "bem":
@@ -240,6 +245,7 @@ def boundary_of(grid):
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
     "estimate_error": ("bem", "fem"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
+    "probes": ("fem",),
     "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem"),
 }
 
@@ -269,13 +275,17 @@ def set_thickness(greens, surface, thickness):
     surface.GetCellData().RemoveArray(THICKNESS)
 
 
-def finite_elements(volume, element, cell_size, domain, smooth_angle, patch_columns, estimate_error,
+def finite_elements(volume, element, cell_size, probes, domain, smooth_angle, patch_columns, estimate_error,
                     **_):
     """The filter of finite elements, but for its surface and columns."""
     filter = vtkFiniteElementGreensFunctions()
     if choice(domain, DOMAINS, "domain") == DOMAINS["exterior"]:
         raise Error("domain='exterior' makes no sense for method='fem': leave it out")
     filter.SetUnsupported(domain == "unsupported")
+    if probes is not None:
+        places = listed(probes, "probes")
+        for place in vectors(places, len(places), "probes"):
+            filter.AddProbe(*place)
     if volume is not None:
         if not isinstance(volume, vtkUnstructuredGrid):
             raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")

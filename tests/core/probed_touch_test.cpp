@@ -65,7 +65,7 @@ TEST(ProbeRows, GiveWhatTheSurfacesWholeSolutionGives) {
   }
   const auto fields = InteriorProbes(probed.model, probed.points).evaluate(displacement, traction);
   for (int point = 0; point < 2; ++point) {
-    const ProbedField field = fieldOf(values[point], probed.rows->shearModulus());
+    const ProbedField field = fieldOf(values[point], probed.rows->stiffness(point));
     EXPECT_LT((field.displacement - fields[point].displacement).norm(),
               1e-12 * fields[point].displacement.norm());
     EXPECT_LT((field.gradient - fields[point].gradient).norm(),
@@ -144,10 +144,13 @@ TEST(ProbedTouches, RefuseProbesWithoutRowsAndRowsOfAnotherBody) {
         probed.session(kPlaces, kBall);
       },
       "of which there are no rows"));
-  EXPECT_TRUE(isRefused([] { ProbeRows(Eigen::MatrixXd::Zero(12, 3), 1); }, "not 12 by 3"));
+  EXPECT_TRUE(isRefused(
+      [] { ProbeRows(Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(12, 3), {Matrix6d::Zero()}); },
+      "not 12 by 3"));
   EXPECT_TRUE(isRefused(
       [&] {
-        probed.rows = std::make_shared<const ProbeRows>(Eigen::MatrixXd::Zero(26, 3), 1);
+        probed.rows = std::make_shared<const ProbeRows>(probed.points, Eigen::MatrixXd::Zero(26, 3),
+                                                        std::vector<Matrix6d>(2, Matrix6d::Zero()));
         probed.session(kPlaces, kBall);
       },
       "rows of 2 probes and 1 nodes"));

@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 import palpate
+from support.solids import bar, base_of, set_cells
 from support.surfaces import PROGRAM
 from support.touch import PRESS, RATE, SIZE, Touch, block_model, path, write_recording
 
@@ -59,13 +60,27 @@ class Probes(unittest.TestCase):
         style = self.touched({"name": "deep", "inside": INSIDE}, seconds=1.2)
         force = [0.0] * 3
         style.GetForce(0, force)
-        pressed = palpate.press(block_model(), (0.05, 0.05, SIZE), force=[-f for f in force], radius=0.008,
-                                )
+        pressed = palpate.press(block_model(), (0.05, 0.05, SIZE), force=[-f for f in force], radius=0.008)
         inside = palpate.probe(pressed, [INSIDE])
         self.assertAlmostEqual(
             style.GetProbeVonMisesStress(0) / palpate.array(inside, "VonMisesStress")[0], 1, delta=0.15)
         self.assertEqual(self.exceeded, [])
         self.assertEqual(style.GetProbeLimitTime(0), -1)
+
+    def test_look_into_bodies_of_several_materials_where_these_were_asked(self):
+        grid = set_cells(bar((3, 3, 3), (SIZE,) * 3), YoungsModulus=[1e4 + c for c in range(162)],
+                         PoissonRatio=[0.3] * 162)
+        model = palpate.precompute(grid, 1e4, 0.3, fixed=base_of(grid), method="fem", probes=[INSIDE],
+                                   estimate_error=False)
+        palpate.write(model, str(self.folder / "block.vtp"))
+        style = self.touched({"name": "deep", "inside": INSIDE}, seconds=1.2)
+        other = self.touched({"name": "deep", "inside": INSIDE}, seconds=1.2)
+        self.assertGreater(style.GetProbeVonMisesStress(0), 10)
+        self.assertEqual(style.GetProbeVonMisesStress(0), other.GetProbeVonMisesStress(0))
+        refused = Touch()
+        self.assertTrue(refused.LoadScene(str(self.scene([{"name": "out", "inside": [0.05, 0.05, 0.03]}]))))
+        self.assertFalse(refused.RunHeadless(0.1))
+        self.assertIn("no probe at", refused.GetFailureMessage())
 
     def test_on_the_surface_read_no_stress(self):
         style = self.touched({"name": "top", "node": 3}, seconds=0.2)

@@ -145,6 +145,47 @@ class Foundation(Refusals):
         self.refused("leave a motion of the body free", palpate.foundation, loose, springs=one)
 
 
+class Probes(Refusals):
+    """Inside bodies of several materials."""
+
+    @staticmethod
+    def model(**options):
+        grid = bar((2, 2, 4))
+        heights = np.array([np.mean([grid.GetPoint(grid.GetCell(c).GetPointId(k))[2] for k in range(4)])
+                            for c in range(grid.GetNumberOfCells())])
+        set_cells(grid, YoungsModulus=np.where(heights > 1, 5e4, 1e4), PoissonRatio=np.zeros(len(heights)))
+        return palpate.precompute(grid, YOUNG, 0.0, fixed=base_of(grid), method="fem", estimate_error=False,
+                                  **options)
+
+    def test_read_what_a_slice_bears(self):
+        places = [(0.45, 0.5, 0.6), (0.5, 0.55, 1.3)]
+        model = self.model(probes=places)
+        pushed = palpate.solve(model, [], np.zeros((0, 3)), free_tractions=np.where(
+            points_of(model)[:, 2:] > 2 - 1e-9, (0, 0, -100.0), 0.0))
+        top = points_of(model)[:, 2] > 2 - 1e-9
+        force = 100 * palpate.array(model, "VertexArea")[top].sum()
+        inside = palpate.probe(pushed, places)
+        # The edges of the top bear more than their part, and a bar of two widths does not forget that.
+        np.testing.assert_allclose(palpate.array(inside, "Stress")[:, 2], -force, rtol=0.25)
+        ratio = palpate.array(inside, "Strain")[:, 2] / palpate.array(inside, "Stress")[:, 2]
+        np.testing.assert_allclose(ratio, (1e-4, 2e-5), rtol=1e-6)
+        self.assertTrue((palpate.array(inside, "InsideMaterial") == 1).all())
+        self.refused("no probe at (0.5, 0.5, 0.5)", palpate.probe, pushed, [(0.5, 0.5, 0.5)])
+
+    def test_that_make_no_sense_are_refused(self):
+        self.refused("is not inside the body", self.model, probes=[(0.5, 0.5, 3)])
+        self.refused("probes", self.model, probes=[(0.5, 0.5)])
+        surface = sphere()
+        self.refused("probes makes no sense", palpate.precompute, surface, YOUNG, 0.3,
+                     fixed=lower_cap(surface), probes=[(0, 0, 0)])
+        plain = self.model()
+        pushed = palpate.press(plain, (0.5, 0.5, 2), force=(0, 0, -1), radius=0.5)
+        self.refused("one isotropic material", palpate.probe, pushed, [(0.5, 0.5, 1)])
+        damaged = copy_of(self.model(probes=[(0.5, 0.5, 1)]))
+        damaged.GetFieldData().RemoveArray("ProbeStiffness")
+        self.refused("'ProbeStiffness' must hold 36 by 1", palpate.press, damaged, (0.5, 0.5, 2), force=(0, 0, -1))
+
+
 class Unsupported(Refusals):
     def test_bodies_shrink_under_pressure_and_stay_where_they_are(self):
         poisson, pressure = 0.3, 10.0

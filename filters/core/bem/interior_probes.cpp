@@ -17,6 +17,13 @@
 namespace palpate {
 namespace {
 
+/// 2 G e of a strain e.
+Matrix6d shearStiffness(double shearModulus) {
+  Eigen::Matrix<double, 6, 1> diagonal;
+  diagonal << 2, 2, 2, 1, 1, 1;
+  return (shearModulus * diagonal).asDiagonal();
+}
+
 using Corners = Eigen::Matrix3d;  // columns
 
 double longestEdge(const Corners& x) {
@@ -146,6 +153,9 @@ InteriorProbes::InteriorProbes(const ElasticModel& model, const Eigen::Matrix3Xd
                           ofDisplacement_[i]);
       },
       [&](int begun) { progress.report(double(begun) / count, "probe"); });
+  for (std::vector<Rows>* all : {&ofTraction_, &ofDisplacement_})
+    for (Rows& rows : *all)  // from the mean stress to what of it 2 G e does not tell
+      rows.row(12) -= 2 * shearModulus_ / 3 * (rows.row(3) + rows.row(7) + rows.row(11));
 }
 
 std::vector<ProbedField> InteriorProbes::evaluate(const Eigen::Matrix3Xd& displacement,
@@ -157,7 +167,7 @@ std::vector<ProbedField> InteriorProbes::evaluate(const Eigen::Matrix3Xd& displa
   for (std::size_t i = 0; i < ofTraction_.size(); ++i)
     fields.push_back(
         fieldOf(ofTraction_[i] * traction.reshaped() + ofDisplacement_[i] * displacement.reshaped(),
-                shearModulus_));
+                shearStiffness(shearModulus_)));
   return fields;
 }
 
@@ -201,7 +211,8 @@ ProbeRows probeRows(const GreensFunctions& greens, const ElasticModel& model,
     for (int i = 0; i < now; ++i)
       rows.middleCols<3>(3 * loaded[first + i]) = values.middleCols<3>(3 * i);
   }
-  return {std::move(rows), model.material().shearModulus()};
+  return {points, std::move(rows),
+          std::vector<Matrix6d>(points.cols(), shearStiffness(model.material().shearModulus()))};
 }
 
 }  // namespace palpate

@@ -68,6 +68,26 @@ AlignedBuffer<double> taken(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
 
 constexpr double kEstimateShare = 0.3;
 
+/// Rows of probes in the model's units, of the nodes whose columns there are and that are free.
+std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Matrix3Xd& points,
+                                          const GreensFunctionsInfo& info,
+                                          const Eigen::MatrixXd& values,
+                                          const std::vector<double>& perGiven, double length,
+                                          double stiffness) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(values.rows(), 3 * info.conditions.nodeCount());
+  for (std::size_t c = 0; c < info.columnNodes.size(); ++c)
+    if (const int node = info.columnNodes[c]; !info.conditions.isFixed(node))
+      rows.middleCols<3>(3 * node) = perGiven[c] * values.middleCols<3>(3 * c);
+  std::vector<Matrix6d> stiffnesses;
+  for (const fem::SolidProbe& probe : fem::locateProbes(body, points)) {
+    const Eigen::Index row = 13 * static_cast<Eigen::Index>(stiffnesses.size());
+    rows.middleRows<3>(row) *= length;
+    rows.row(row + 12) *= stiffness;
+    stiffnesses.push_back(body.material(probe.cell).stiffness());
+  }
+  return std::make_shared<const ProbeRows>(points, std::move(rows), std::move(stiffnesses));
+}
+
 /// The same method for another mesh, filled with the same material.
 EstimatedMethod estimatedMethod(const FiniteElementOptions& options, const Elasticity& material) {
   FiniteElementOptions all;
@@ -113,8 +133,11 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
                                                             const ProgressCallback& callback) {
   if (model.domain() != Domain::Interior && model.domain() != Domain::Unsupported)
     throw std::invalid_argument("finite elements fill the inside of a surface, no other domain");
-  if (model.domain() == Domain::Unsupported)
+  if (model.domain() == Domain::Unsupported) {
     requireAllColumns(options.columns, options.patchColumns);
+    if (options.probes.cols() > 0)
+      throw std::invalid_argument("an unsupported body has no probes: leave them out");
+  }
   const Progress whole(callback);
   const Progress progress = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
   ComputedGreensFunctions result;
@@ -134,7 +157,8 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   for (const LoadHat& hat : hats)
     if (hat.patch >= 0) info.patchColumns.push_back({hat.vertex, hat.patch});
   const std::vector<WantedColumn> wanted = wantedColumns(info, hats);
-  fem::SolidSystem system(model, body, options.element, std::move(hats), progress.part(0, 0.1));
+  fem::SolidSystem system(model, body, options.element, std::move(hats),
+                          fem::locateProbes(body, options.probes), progress.part(0, 0.1));
   addSeconds(info.diagnostics, "assemble", watch.seconds());
 
   const fem::MortarShares shares =
@@ -145,6 +169,9 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   std::vector<double> perGiven = perGivenOfNodes(info, length, stiffness);
   perGiven.resize(perGiven.size() + info.patchColumns.size(), 1 / stiffness);
   if (info.domain == Domain::Interior) perGiven.push_back(length / stiffness);  // of the weight
+  if (options.probes.cols() > 0)
+    info.probes =
+        probesOf(body, options.probes, info, response.probes, perGiven, length, stiffness);
   scaleToModel(info, length, stiffness, perGiven, response.columns);
   addSeconds(info.diagnostics, "solve", watch.seconds());
   info.diagnostics.rotationDefect = response.rigidMotionDefect;

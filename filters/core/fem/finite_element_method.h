@@ -16,6 +16,9 @@ namespace palpate {
 
 struct FiniteElementOptions {
   SolidElement element = SolidElement::Quadratic;
+  /// Places inside the body whose fields are wanted for any load (GreensFunctionsInfo::probes), 3
+  /// by any, m. Displacements are the elements', gradients jump between them.
+  Eigen::Matrix3Xd probes;
   /// Nodes whose Green's functions are computed; empty for all free nodes.
   std::vector<int> columns;
   /// Also compute, at vertices on sharp edges, the response to a traction on one patch alone.

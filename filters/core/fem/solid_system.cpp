@@ -76,7 +76,8 @@ int groupOf(const SolidBody& body, int cell) {
 }  // namespace
 
 SolidSystem::SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
-                         std::vector<LoadHat> loadHats, const Progress& progress)
+                         std::vector<LoadHat> loadHats, const std::vector<SolidProbe>& probes,
+                         const Progress& progress)
     : length(model.mesh().diagonal()),
       stiffness(body.largestStiffness()),
       hats(std::move(loadHats)),
@@ -94,6 +95,7 @@ SolidSystem::SolidSystem(const ElasticModel& model, const SolidBody& body, Solid
     addSprings(model.mesh(), body);
   else
     addWeight(body, nodes, element);
+  addProbes(body, nodes, element, probes);
 }
 
 void SolidSystem::placePressures(const SolidBody& body) {
@@ -213,6 +215,31 @@ void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, Soli
         entries.add(entries.size + k, places_[node].place[end] + k,
                     -places_[node].weight() * weights[node]);
   entries.size += loadCount;
+}
+
+void SolidSystem::addProbes(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
+                            const std::vector<SolidProbe>& probes) {
+  probeCount = static_cast<int>(probes.size());
+  for (const SolidProbe& probe : probes) {
+    const auto cell = body.mesh().tetrahedra().col(probe.cell);
+    const Eigen::Matrix<double, 3, 4> corners = body.mesh().points()(Eigen::all, cell) / length;
+    Eigen::VectorXd values;
+    Eigen::Matrix3Xd slopes;
+    shapeFunctions(element, probe.barycentric, barycentricGradients(corners), values, slopes);
+    const int row = entries.size;
+    for (int i = 0; i < nodes.perCell(); ++i) {
+      const NodePlace& node = places_[nodes.cells(i, probe.cell)];
+      for (int end = 0; end < node.count(); ++end)
+        for (int k = 0; k < 3; ++k) {
+          entries.add(row + k, node.place[end] + k, -node.weight() * values[i]);
+          for (int l = 0; l < 3; ++l)
+            entries.add(row + 3 + 3 * k + l, node.place[end] + k, -node.weight() * slopes(l, i));
+        }
+    }
+    for (int v = 0; body.material(probe.cell).isSplit() && v < 4; ++v)
+      entries.add(row + 12, pressurePlace(body, probe.cell, v), -probe.barycentric[v]);
+    entries.size += 13;
+  }
 }
 
 void SolidSystem::addSprings(const SurfaceMesh& mesh, const SolidBody& body) {

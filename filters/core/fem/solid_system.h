@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/solid_elements.h"
+#include "fem/solid_probes.h"
 #include "linear_algebra/sparse_factorization.h"
 #include "model/elastic_model.h"
 #include "progress.h"
@@ -40,9 +41,12 @@ struct LoadHat {
 struct SolidSystem {
   /// @param hats  of free vertices.
   SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
-              std::vector<LoadHat> hats, const Progress& progress);
+              std::vector<LoadHat> hats, const std::vector<SolidProbe>& probes,
+              const Progress& progress);
 
-  int keptCount() const { return loadRow() + loadCount; }
+  int keptCount() const { return probeRow() + 13 * probeCount; }
+  /// The kept row of the first probe: minus its ProbeValues, in the system's units.
+  int probeRow() const { return loadRow() + loadCount; }
   /// The kept row of the first load.
   int loadRow() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
   int unknownCount() const { return entries.size - keptCount(); }
@@ -51,7 +55,7 @@ struct SolidSystem {
   std::vector<LoadHat> hats;       ///< kept first, three numbers each
   std::vector<int> fixedVertices;  ///< then these, ascending, likewise
   int pressureCount = 0;
-  int loadCount = 0;
+  int loadCount = 0, probeCount = 0;
   SymmetricEntries entries;  ///< unknowns, then what is kept
   /// #V by #V: integrals of the products of two vertices' hats, in squared lengths of the body.
   Eigen::SparseMatrix<double> hatProducts;
@@ -69,6 +73,8 @@ struct SolidSystem {
   void addCells(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
                 const Progress& progress);
   void addWeight(const SolidBody& body, const SolidNodes& nodes, SolidElement element);
+  void addProbes(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
+                 const std::vector<SolidProbe>& probes);
   void addSprings(const SurfaceMesh& mesh, const SolidBody& body);
   void addHats(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
   int pressurePlace(const SolidBody& body, int cell, int corner) const;

@@ -77,6 +77,7 @@ class Condensation {
     requireRigidMotions(response.rigidMotionDefect);
     answer.conservativeResize(Eigen::NoChange, columns);
     response.columns = atVertices(answer, wanted);
+    response.probes = -answer.bottomRows(13 * system_.probeCount);
     if (isHeld()) return response;
     response.displacedMotions = shownMotions(shares_.displacement);
     response.loadedMotions = shownMotions(shares_.load);
@@ -123,7 +124,7 @@ class Condensation {
       given.middleRows(hatRows_, 3 * system_.fixedVertices.size()) =
           motionsOf(system_.fixedVertices);
     else
-      given.bottomRows(motions).setIdentity();
+      given.middleRows(system_.loadRow(), motions).setIdentity();
     return given;
   }
 

@@ -29,6 +29,8 @@ struct SurfaceResponse {
   Eigen::MatrixXd columns;
   /// The largest relative error of displacements where the fixed vertices, or the springs of
   /// unsupported bodies, move rigidly: of the solution's rounding.
+  /// 13 #probes by 3 #wanted: ProbeValues.
+  Eigen::MatrixXd probes;
   double rigidMotionDefect = -1;
   /// 3 #V by 6 #bodies where nothing is fixed, rigidMotionsOfBodies as displacements show them and
   /// as the resultants of forces have them.

@@ -125,6 +125,8 @@ std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsM
     scaledInfo.diagnostics.rockingCompliance /= factor;
   for (int node = 0; node < nodeCount() && scaledInfo.weightResponse.size() > 0; ++node)
     if (!isFixed(node)) scaledInfo.weightResponse.middleRows<3>(3 * node) /= factor;
+  if (scaledInfo.probes)
+    scaledInfo.probes = std::make_shared<const ProbeRows>(scaledInfo.probes->stiffer(factor));
   auto scaled = std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_,
                                                                patchMatrix_, keeper_);
   scaled->stiffnessScale_ = stiffnessScale_ * factor;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diagnostics.h"
+#include "greens/probe_rows.h"
 #include "model/boundary_conditions.h"
 #include "model/elastic_model.h"
 #include "model/material.h"
@@ -45,8 +46,9 @@ struct GreensFunctionsInfo {
   /// where fixed (of a body of several densities: in the mean over its volume). Empty where it was
   /// not computed.
   Eigen::MatrixXd weightResponse;
-  double density = 0;  ///< kg/m^3, in the mean; 0 where it is not known
-  std::string source;  ///< method, options and version, for people
+  double density = 0;                       ///< kg/m^3, in the mean; 0 where it is not known
+  std::shared_ptr<const ProbeRows> probes;  ///< that the method was asked for, or null
+  std::string source;                       ///< method, options and version, for people
   Diagnostics diagnostics;
 };
 

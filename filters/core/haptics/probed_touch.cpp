@@ -44,7 +44,7 @@ void ProbedTouch::read(int point) noexcept {
     if (state_.loadedBodies[i] == 0 && !greens_->isFixed(node))
       rows_.accumulate(point, node, state_.loads[i] / (scale * greens_->vertexArea(node)), values);
   }
-  const ProbedField field = fieldOf(values, rows_.shearModulus());
+  const ProbedField field = fieldOf(values, rows_.stiffness(point));
   ProbeReading& reading = readings_[point];
   reading.displacement = field.displacement;
   reading.vonMises = vonMisesStress(field.stress);

@@ -86,6 +86,12 @@ constexpr const char* PatchGreensFunctionNodes = "PatchGreensFunctionNodes"; // 
 /// What a weight of 1 N/m^3 in the mean does, three tuples like those of GreensFunctions, one an axis:
 /// metres where free, pascals where fixed. Where it is missing, boundary elements' models find it.
 constexpr const char* WeightResponse = "WeightResponse";
+/// Points inside as rows: 13 a point and component a tuple, three tuples a node, per pascal:
+/// displacement, its gradient row by row, and what of the mean stress (Pa) the strain does not tell;
+/// their places (3, m) and stiffnesses (36, Pa, Voigt: xx, yy, zz, yz, xz, xy), a tuple a point.
+constexpr const char* ProbeGreensFunctions = "ProbeGreensFunctions";
+constexpr const char* ProbePoints = "ProbePoints";
+constexpr const char* ProbeStiffness = "ProbeStiffness";
 /// Young's modulus that the stored functions were computed with; YoungsModulus scales what is served.
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
@@ -150,7 +156,8 @@ constexpr const char* Zone = "Zone";           // int, optional: whose force it 
 
 /// Field data of one computation of Green's functions.
 constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
-  PatchGreensFunctions, PatchGreensFunctionNodes, WeightResponse, Density, GreensFunctionYoungsModulus, GreensFunctionSource,
+  PatchGreensFunctions, PatchGreensFunctionNodes, WeightResponse, Density,
+  ProbeGreensFunctions, ProbePoints, ProbeStiffness, GreensFunctionYoungsModulus, GreensFunctionSource,
   HomogeneousMaterial, GreensFunctionDomain, Clamped, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,

@@ -250,6 +250,66 @@ Domain domainOf(vtkPolyData* surface)
                                        : static_cast<Domain>(name - std::begin(DomainNames));
 }
 
+void addProbes(vtkPolyData* surface, const ProbeRows& probes)
+{
+  AlignedBuffer<double> rows(probes.rows().size());
+  std::copy_n(probes.rows().data(), rows.size(), rows.data());
+  addMatrix<vtkDoubleArray>(
+    surface, arrays::ProbeGreensFunctions, std::move(rows), static_cast<int>(probes.rows().rows()));
+  setFieldVectors(surface, arrays::ProbePoints, probes.points());
+  vtkNew<vtkDoubleArray> stiffness;
+  stiffness->SetName(arrays::ProbeStiffness);
+  stiffness->SetNumberOfComponents(36);
+  for (int point = 0; point < probes.count(); ++point)
+  {
+    stiffness->InsertNextTuple(probes.stiffness(point).data());
+  }
+  surface->GetFieldData()->AddArray(stiffness);
+}
+
+/// The numbers of a field array, a column a tuple.
+Eigen::MatrixXd fieldMatrix(vtkPolyData* surface, const char* name, vtkIdType rows, vtkIdType columns)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != rows || array->GetNumberOfTuples() != columns)
+  {
+    throw std::invalid_argument(std::string("the field array '") + name + "' must hold " +
+      std::to_string(rows) + " by " + std::to_string(columns) + " values");
+  }
+  Eigen::MatrixXd values(rows, columns);
+  for (vtkIdType i = 0; i < columns; ++i)
+  {
+    array->GetTuple(i, values.col(i).data());
+  }
+  if (!values.allFinite())
+  {
+    throw std::invalid_argument(
+      std::string("the field array '") + name + "' holds values that are not finite");
+  }
+  return values;
+}
+
+/// Those that the surface carries; null without any.
+std::shared_ptr<const ProbeRows> probesOf(vtkPolyData* surface)
+{
+  vtkDataArray* places = surface->GetFieldData()->GetArray(arrays::ProbePoints);
+  if (!places || !hasField(surface, arrays::ProbeGreensFunctions))
+  {
+    return nullptr;
+  }
+  const vtkIdType count = places->GetNumberOfTuples();
+  const Eigen::MatrixXd stiffness = fieldMatrix(surface, arrays::ProbeStiffness, 36, count);
+  std::vector<Matrix6d> all;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    all.emplace_back(stiffness.col(i).reshaped(6, 6));
+  }
+  return std::make_shared<const ProbeRows>(fieldMatrix(surface, arrays::ProbePoints, 3, count),
+    fieldMatrix(
+      surface, arrays::ProbeGreensFunctions, 13 * count, 3 * surface->GetNumberOfPoints()),
+    std::move(all));
+}
+
 /// What the body's weight does, where the surface carries it.
 void readWeight(vtkPolyData* surface, GreensFunctionsInfo& info)
 {
@@ -350,6 +410,10 @@ void setGreensFunctions(
   {
     setFieldNumber(surface, arrays::Density, info.density);
   }
+  if (info.probes)
+  {
+    addProbes(surface, *info.probes);
+  }
   vtkNew<vtkTypeUInt64Array> fingerprint;
   fingerprint->SetName(arrays::MeshFingerprint);
   fingerprint->InsertNextValue(info.fingerprint);
@@ -418,6 +482,7 @@ ServedModel servedModelOf(vtkPolyData* surface)
     fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
   info.source = fieldString(surface, arrays::GreensFunctionSource);
   readWeight(surface, info);
+  info.probes = probesOf(surface);
 
   const std::shared_ptr<const GreensFunctions> stored = info.domain == Domain::HalfSpace
     ? std::make_shared<HalfSpaceGreensFunctions>(std::move(info), *served.mesh)

@@ -80,6 +80,28 @@ DeformedBody deformedBodyOf(vtkPolyData* surface)
     contactVectors(surface, arrays::Displacement), contactVectors(surface, arrays::Traction) };
 }
 
+std::optional<StoredProbes> storedProbesOf(vtkPolyData* surface, const Eigen::Matrix3Xd& places)
+{
+  constexpr double tolerance = 1e-6; // of the diagonal
+  const ServedModel served = servedModelOf(surface);
+  const GreensFunctionsInfo& info = served.greens->info();
+  if (info.homogeneous || !info.probes)
+  {
+    return std::nullopt;
+  }
+  const Eigen::Matrix3Xd displacement = contactVectors(surface, arrays::Displacement);
+  for (int node : info.conditions.fixedNodes())
+  {
+    if (!displacement.col(node).isZero(0))
+    {
+      throw std::invalid_argument("vertex " + std::to_string(node) +
+        " of the support is moved, whose part of the inside's fields is not known");
+    }
+  }
+  return StoredProbes{ info.probes->at(places, tolerance * served.mesh->diagonal()), served.mesh,
+    contactVectors(surface, arrays::Traction) };
+}
+
 void setStresses(vtkDataSetAttributes* attributes, const std::vector<Eigen::Matrix3d>& gradients,
   const std::vector<Eigen::Matrix3d>& stresses)
 {

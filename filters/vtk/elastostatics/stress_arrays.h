@@ -4,9 +4,12 @@
 #ifndef palpate_stress_arrays_h
 #define palpate_stress_arrays_h
 
+#include "greens/probe_rows.h"
 #include "model/elastic_model.h"
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 class vtkDataSetAttributes;
@@ -26,6 +29,19 @@ struct DeformedBody
 /// A model with the arrays Displacement and Traction of a contact.
 /// @throws also for a half-space, and for bodies of several or anisotropic materials.
 DeformedBody deformedBodyOf(vtkPolyData* surface);
+
+/// Rows of points that a model carries, and the contact that they are read under.
+struct StoredProbes
+{
+  ProbeRows rows;
+  std::shared_ptr<const SurfaceMesh> mesh;
+  Eigen::Matrix3Xd traction; // 3 by #points
+};
+
+/// Those at these places of a body of several or anisotropic materials; none for others, whose inside the
+/// surface tells.
+/// @throws also for such a body without rows of one of the places, or whose fixed vertices were moved.
+std::optional<StoredProbes> storedProbesOf(vtkPolyData* surface, const Eigen::Matrix3Xd& places);
 
 /// Adds Strain, Stress (six components each, as VTK orders them), VonMisesStress and PrincipalStress.
 void setStresses(vtkDataSetAttributes* attributes, const std::vector<Eigen::Matrix3d>& gradients,

@@ -31,7 +31,20 @@ void vtkFiniteElementGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Element: " << this->Element << "\n"
      << indent << "CellSize: " << this->CellSize << "\n"
      << indent << "Unsupported: " << this->Unsupported << "\n"
+     << indent << "Probes: " << this->Probes.size() / 3 << "\n"
      << indent << "EstimateError: " << this->EstimateError << "\n";
+}
+
+void vtkFiniteElementGreensFunctions::AddProbe(double x, double y, double z)
+{
+  this->Probes.insert(this->Probes.end(), { x, y, z });
+  this->Modified();
+}
+
+void vtkFiniteElementGreensFunctions::ClearProbes()
+{
+  this->Probes.clear();
+  this->Modified();
 }
 
 int vtkFiniteElementGreensFunctions::FillInputPortInformation(int port, vtkInformation* info)
@@ -59,6 +72,8 @@ void vtkFiniteElementGreensFunctions::Compute(
   options.patchColumns = this->PatchColumns;
   options.reciprocal = this->Reciprocal;
   options.estimateError = this->EstimateError;
+  options.probes = Eigen::Map<const Eigen::Matrix3Xd>(
+    this->Probes.data(), 3, static_cast<Eigen::Index>(this->Probes.size() / 3));
   const palpate::Progress progress([this](double fraction, const char* stage)
     { return this->ReportProgress(fraction, stage); });
   const auto compute = [&](const palpate::ElasticModel& model, const palpate::SolidBody& body,

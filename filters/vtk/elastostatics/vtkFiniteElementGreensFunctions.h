@@ -79,6 +79,16 @@ public:
 
   ///@{
   /**
+   * Places inside the body, m, whose displacement, strain and stress are to be known under any contact:
+   * the only way to look into bodies of several or anisotropic materials (vtkInteriorProbe, scenes).
+   * None by default; each costs a row of the system.
+   */
+  void AddProbe(double x, double y, double z);
+  void ClearProbes();
+  ///@}
+
+  ///@{
+  /**
    * Estimate the relative error (palpate::estimateError) on a coarser mesh, or below 200 vertices on a
    * finer one, that is filled anew; not for bodies of several materials. Default on.
    */
@@ -100,6 +110,7 @@ private:
   int Element = QUADRATIC;
   double CellSize = 0;
   bool Unsupported = false;
+  std::vector<double> Probes; // three each
   bool EstimateError = true;
   vtkSmartPointer<vtkPolyData> Filled; // the surface that what is kept belongs to
 };

@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "bem/interior_probes.h"
 #include "conversion.h"
+#include "mesh/surface_locator.h"
 #include "stress_arrays.h"
 
 #include "vtkCellArray.h"
@@ -82,15 +83,80 @@ void setPoints(vtkPointSet* set, vtkPolyData* output)
   output->SetPoints(set->GetPoints());
   output->SetVerts(vertices);
 }
+
+/// The arrays of the output.
+class ProbedPoints
+{
+public:
+  explicit ProbedPoints(Eigen::Index count)
+    : Displacement(Eigen::Matrix3Xd::Zero(3, count))
+    , Distance(Eigen::VectorXd::Zero(count))
+    , IsInside(this->Distance)
+    , Gradients(count, Eigen::Matrix3d::Zero())
+    , Stresses(this->Gradients)
+  {
+  }
+
+  /// @param distance  from the surface, in edges.
+  void Set(int i, const palpate::ProbedField& field, double distance)
+  {
+    this->Displacement.col(i) = field.displacement;
+    this->Gradients[i] = field.gradient;
+    this->Stresses[i] = field.stress;
+    this->Distance[i] = distance;
+    this->IsInside[i] = 1;
+  }
+
+  void Write(vtkPointSet* set, vtkPolyData* output) const
+  {
+    namespace convert = palpate::convert;
+    namespace arrays = palpate::arrays;
+    setPoints(set, output);
+    convert::setPointVectors(output, arrays::Displacement, this->Displacement);
+    convert::setStresses(output->GetPointData(), this->Gradients, this->Stresses);
+    convert::setPointNumbers(output, arrays::InsideMaterial, this->IsInside);
+    convert::setPointNumbers(output, arrays::EdgesFromSurface, this->Distance);
+  }
+
+private:
+  Eigen::Matrix3Xd Displacement;
+  Eigen::VectorXd Distance, IsInside;
+  std::vector<Eigen::Matrix3d> Gradients, Stresses;
+};
+
+/// Of places whose rows the model carries.
+void readRows(const palpate::convert::StoredProbes& probes, vtkPointSet* set, vtkPolyData* output)
+{
+  const palpate::ProbeRows& rows = probes.rows;
+  const palpate::SurfaceLocator locator(probes.mesh);
+  ProbedPoints probed(rows.count());
+  for (int point = 0; point < rows.count(); ++point)
+  {
+    palpate::ProbeValues values = palpate::ProbeValues::Zero();
+    for (int node = 0; node < rows.nodeCount(); ++node)
+    {
+      rows.accumulate(point, node, probes.traction.col(node), values);
+    }
+    const Eigen::Vector3d place = rows.points().col(point);
+    const Eigen::Vector3d surface = palpate::placeOf(*probes.mesh, locator.nearest(place));
+    probed.Set(point, palpate::fieldOf(values, rows.stiffness(point)),
+      (surface - place).norm() / probes.mesh->meanEdgeLength());
+  }
+  probed.Write(set, output);
+}
 } // namespace
 
 void vtkInteriorProbe::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
   namespace convert = palpate::convert;
-  namespace arrays = palpate::arrays;
   vtkPointSet* set = vtkPointSet::GetData(inputs[1]);
-  const convert::DeformedBody body = convert::deformedBodyOf(input);
   const Eigen::Matrix3Xd places = placesOf(set);
+  if (const auto stored = convert::storedProbesOf(input, places))
+  {
+    readRows(*stored, set, output);
+    return;
+  }
+  const convert::DeformedBody body = convert::deformedBodyOf(input);
   const std::uint64_t fingerprint = body.model.fingerprint();
   const double young = body.model.material().youngsModulus();
   if (!this->Kept || this->Kept->Fingerprint != fingerprint || this->Kept->YoungsModulus != young ||
@@ -108,21 +174,11 @@ void vtkInteriorProbe::Compute(vtkPolyData* input, vtkPolyData* output, vtkInfor
     this->Kept->Probes.evaluate(body.displacement, body.traction);
 
   const Eigen::Index count = places.cols();
-  Eigen::Matrix3Xd displacement = Eigen::Matrix3Xd::Zero(3, count);
-  Eigen::VectorXd distance = Eigen::VectorXd::Zero(count), isInside = distance;
-  std::vector<Eigen::Matrix3d> gradients(count, Eigen::Matrix3d::Zero()), stresses = gradients;
+  ProbedPoints probed(count);
   for (std::size_t k = 0; k < fields.size(); ++k)
   {
-    const int i = this->Kept->Inside[k];
-    displacement.col(i) = fields[k].displacement;
-    gradients[i] = fields[k].gradient;
-    stresses[i] = fields[k].stress;
-    distance[i] = this->Kept->Probes.distances()[static_cast<Eigen::Index>(k)];
-    isInside[i] = 1;
+    probed.Set(this->Kept->Inside[k], fields[k],
+      this->Kept->Probes.distances()[static_cast<Eigen::Index>(k)]);
   }
-  setPoints(set, output);
-  convert::setPointVectors(output, arrays::Displacement, displacement);
-  convert::setStresses(output->GetPointData(), gradients, stresses);
-  convert::setPointNumbers(output, arrays::InsideMaterial, isInside);
-  convert::setPointNumbers(output, arrays::EdgesFromSurface, distance);
+  probed.Write(set, output);
 }

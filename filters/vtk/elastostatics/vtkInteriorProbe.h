@@ -5,7 +5,8 @@
  * @brief displacement, strain and stress inside a pressed body
  *
  * Input 0: a model with `Displacement` and `Traction` at its points, as vtkPointContact and
- * vtkCapacitanceSolve leave them, of one isotropic material, whatever method computed it. Input 1: the
+ * vtkCapacitanceSolve leave them, of one isotropic material, whatever method computed it, or of several or
+ * anisotropic ones with probes at these places (vtkFiniteElementGreensFunctions::AddProbe). Input 1: the
  * places to probe, any point set. Output: those points (with the cells of polydata, as vertices of
  * others) and the point arrays `Displacement` (m), `Strain` and `Stress` (six components: xx, yy, zz, xy,
  * yz, xz; Pa), `VonMisesStress`, `PrincipalStress` (three, the largest first; Pa), `InsideMaterial` (1, or
@@ -14,7 +15,9 @@
  *
  * Method: Somigliana's identity and its derivatives over the surface, integrated adaptively near it
  * (palpate::InteriorProbes; D. L. James and D. K. Pai 2001, section 3.5). The integrals are kept while
- * body and points stay, so that pressing elsewhere costs 78 products a vertex and point.
+ * body and points stay, so that pressing elsewhere costs 78 products a vertex and point. A probe that the
+ * model carries is read as a row of its Green's functions: its field is the elements', and gradients jump
+ * between them.
  */
 
 #ifndef vtkInteriorProbe_h
