@@ -97,7 +97,7 @@ TEST(ToolTouch, AStiffnessScaleChangesForcesAndNotShapes) {
   ToolTouch touch(body.greens, body.mesh, {ballTool(0.3)}, 0);
   const ToolPose pose = at(0, 0, 1.25);
   Wrench soft, stiff;
-  for (int tick = 0; tick < 10; ++tick) touch.step(&pose, &soft);  // gaps settle
+  for (int tick = 0; tick < 30; ++tick) touch.step(&pose, &soft);  // gaps settle
   ContactSnapshot snapshot = touch.makeSnapshot();
   touch.fill(snapshot);
   SnapshotDeformation first(body.greens), second(body.greens);
@@ -184,10 +184,11 @@ TEST(ToolTouch, ToolsThatHoldPullAndTwistWhileTheirButtonsArePressed) {
     touch.setHolds(holds);
     ToolPose poses[2] = {at(-0.9, 0, 0.9), at(0.1, 0, 1.1)};
     Wrench wrenches[2], before[2];
-    for (int tick = 0; tick < 10; ++tick) touch.step(poses, before);
+    for (int tick = 0; tick < 30; ++tick) touch.step(poses, before);
     poses[1].buttons = ToolTouch::kHolds;
     touch.step(poses, wrenches);
-    EXPECT_LE((wrenches[1].force - before[1].force).norm(), 1e-6 * before[1].force.norm());
+    // What is held moves as the nodes do; points inside triangles yielded by kSpread besides.
+    EXPECT_LE((wrenches[1].force - before[1].force).norm(), 1e-3 * before[1].force.norm());
     poses[1].position += Eigen::Vector3d(0, 0, 0.2);
     poses[1].orientation =
         Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ())) * poses[1].orientation;

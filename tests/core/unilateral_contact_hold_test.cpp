@@ -40,6 +40,9 @@ std::vector<Obstacle> balls(double radius, double friction, int count = 1) {
   return std::vector<Obstacle>(count, {std::make_shared<SphereShape>(radius), friction});
 }
 
+/// Of a ball that meets the finer sphere with its vertices alone.
+constexpr double kLargeRadius = 0.8;
+
 /// What is held, and where it was when that began.
 struct Grip {
   std::vector<int> nodes;
@@ -80,8 +83,8 @@ Wrench bufferWrench(const TouchedBody& body, const Grip& grip, const Eigen::Matr
 
 TEST(UnilateralContactHold, PullsAsTheCapacitanceMatrixOfItsNodesSays) {
   const TouchedBody& body = fineSphere();
-  UnilateralContact contact(body.greens, body.mesh, balls(0.5, 0.3));
-  const RigidPose pressed = at({0.05, 0, 1.44});
+  UnilateralContact contact(body.greens, body.mesh, balls(kLargeRadius, 0.3));
+  const RigidPose pressed = at({0.05, 0, 1.74});
   for (int tick = 0; tick < 10; ++tick) contact.step(&pressed);
   const Eigen::Vector3d before = contact.force(0);
   EXPECT_GT(before.z(), 0);
@@ -91,60 +94,65 @@ TEST(UnilateralContactHold, PullsAsTheCapacitanceMatrixOfItsNodesSays) {
   const Grip grip(contact);
   ASSERT_GE(grip.nodes.size(), 4u);
   for (const RigidPose& pose :
-       {at({0.05, 0, 1.5}), at({0.1, 0.05, 1.6}), at({0, 0, 1.58}, 0.2), at({0, 0, 1.45}, 0.1)}) {
+       {at({0.05, 0, 1.8}), at({0.1, 0.05, 1.9}), at({0, 0, 1.88}, 0.2), at({0, 0, 1.75}, 0.1)}) {
     EXPECT_LE(contact.step(&pose).residual, 1e-9);
     const Wrench wrench = contact.wrench(0);
     const Wrench exact = bufferWrench(body, grip, grip.carried(pressed, pose), pose.position);
     EXPECT_LE((wrench.force - exact.force).norm(), 1e-6 * exact.force.norm());
     EXPECT_LE((wrench.torque - exact.torque).norm(),
-              1e-6 * (exact.torque.norm() + 0.5 * exact.force.norm()));
+              1e-6 * (exact.torque.norm() + kLargeRadius * exact.force.norm()));
     EXPECT_EQ(Grip(contact).nodes.size(), grip.nodes.size());
-    if (pose.position.z() > 1.5) {
+    if (pose.position.z() > 1.8) {
       EXPECT_LT(wrench.force.z(), 0) << "the surface draws the tool back";
     }
   }
   EXPECT_GT(contact.wrench(0).torque.norm(), 1e-3) << "it was turned";
 }
 
+/// The smaller ball also meets points inside triangles, which it has drawn round itself.
 TEST(UnilateralContactHold, LetsGoWhenItIsReleased) {
   const TouchedBody& body = fineSphere();
-  UnilateralContact contact(body.greens, body.mesh, balls(0.5, 0)),
-      fresh(body.greens, body.mesh, balls(0.5, 0));
-  const RigidPose pressed = at({0.05, 0, 1.44}), lifted = at({0.05, 0, 1.6});
-  for (int tick = 0; tick < 10; ++tick) contact.step(&pressed);
-  contact.setHeld(0, true);
-  contact.step(&lifted);
-  EXPECT_LT(contact.force(0).z(), 0);
-  contact.setHeld(0, false);
-  EXPECT_EQ(contact.step(&lifted).contactCount, 0);
-  EXPECT_EQ(contact.force(0), Eigen::Vector3d::Zero());
-  for (int i = 0; i < contact.watchedCount(); ++i) EXPECT_FALSE(contact.watched(i).held);
-  // And presses again as one that never held; without friction nothing is left of what was.
-  contact.setHeld(0, true);
-  contact.step(&pressed);
-  contact.step(&pressed);
-  contact.setHeld(0, false);
-  for (int tick = 0; tick < 10; ++tick) {
+  for (const double radius : {kLargeRadius, 0.5}) {
+    UnilateralContact contact(body.greens, body.mesh, balls(radius, 0)),
+        fresh(body.greens, body.mesh, balls(radius, 0));
+    const RigidPose pressed = at({0.05, 0, 0.94 + radius}), lifted = at({0.05, 0, 1.1 + radius});
+    for (int tick = 0; tick < 10; ++tick) contact.step(&pressed);
+    contact.setHeld(0, true);
+    contact.step(&lifted);
+    EXPECT_LT(contact.force(0).z(), 0);
+    contact.setHeld(0, false);
+    EXPECT_EQ(contact.step(&lifted).contactCount, 0);
+    EXPECT_EQ(contact.force(0), Eigen::Vector3d::Zero());
+    for (int i = 0; i < contact.watchedCount(); ++i) EXPECT_FALSE(contact.watched(i).held);
+    // And presses again as one that never held; without friction nothing is left of what was.
+    contact.setHeld(0, true);
     contact.step(&pressed);
-    fresh.step(&pressed);
+    contact.step(&pressed);
+    contact.setHeld(0, false);
+    for (int tick = 0; tick < 20; ++tick) {
+      contact.step(&pressed);
+      fresh.step(&pressed);
+    }
+    // Points inside triangles settle to 1e-4 of their triangles.
+    EXPECT_LE((contact.force(0) - fresh.force(0)).norm(),
+              (radius == kLargeRadius ? 1e-6 : 1e-4) * fresh.force(0).norm());
   }
-  EXPECT_LE((contact.force(0) - fresh.force(0)).norm(), 1e-6 * fresh.force(0).norm());
 }
 
 TEST(UnilateralContactHold, HoldsWhatItComesToTouch) {
   const TouchedBody& body = fineSphere();
-  UnilateralContact contact(body.greens, body.mesh, balls(0.5, 0.3));
+  UnilateralContact contact(body.greens, body.mesh, balls(kLargeRadius, 0.3));
   contact.setHeld(0, true);
   std::size_t held = 0;
   for (int tick = 0; tick <= 40; ++tick) {
-    const RigidPose pose = at({0, 0, 1.52 - 0.003 * tick});
+    const RigidPose pose = at({0, 0, 1.82 - 0.003 * tick});
     EXPECT_LE(contact.step(&pose).residual, 1e-9);
     const std::size_t now = Grip(contact).nodes.size();
     EXPECT_GE(now, held);
     held = now;
   }
   EXPECT_GE(held, 6u);
-  const RigidPose lifted = at({0, 0, 1.56});
+  const RigidPose lifted = at({0, 0, 1.86});
   contact.step(&lifted);
   EXPECT_EQ(Grip(contact).nodes.size(), held);
   EXPECT_LT(contact.force(0).z(), 0);
@@ -153,8 +161,8 @@ TEST(UnilateralContactHold, HoldsWhatItComesToTouch) {
 /// What is held is elastic: a closed path gives all of its work back.
 TEST(UnilateralContactHold, DoesNoWorkRoundAClosedPath) {
   const TouchedBody& body = fineSphere();
-  UnilateralContact contact(body.greens, body.mesh, balls(0.5, 0.3));
-  Eigen::Vector3d last(0, 0, 1.44);
+  UnilateralContact contact(body.greens, body.mesh, balls(kLargeRadius, 0.3));
+  Eigen::Vector3d last(0, 0, 1.74);
   RigidPose pose = at(last);
   for (int tick = 0; tick < 10; ++tick) contact.step(&pose);
   contact.setHeld(0, true);
@@ -234,12 +242,12 @@ TEST(UnilateralContactHold, PointsInsideTrianglesStayWhereTheyAre) {
 TEST(UnilateralContactHold, OthersDoNotTouchWhatIsHeld) {
   const TouchedBody& body = coarseSphere();
   UnilateralContact contact(body.greens, body.mesh, balls(0.3, 0.3, 2));
-  RigidPose poses[] = {at({0, 0, 1.25}), at({0.2, 0, 1.8})};
+  RigidPose poses[] = {at({0, 0, 1.25}), at({0.4, 0, 1.8})};
   for (int tick = 0; tick < 10; ++tick) contact.step(poses);
   contact.setHeld(0, true);
   double largest = contact.force(0).norm();
   for (int tick = 0; tick <= 100; ++tick) {
-    poses[1] = at({0.2, 0, 1.8 - 0.0065 * tick});
+    poses[1] = at({0.4, 0, 1.8 - 0.0065 * tick});
     const ContactCertificate certificate = contact.step(poses);
     EXPECT_LE(certificate.residual, 1e-9) << tick;
     for (int i = 0; i < 2; ++i) largest = std::max(largest, contact.force(i).norm());

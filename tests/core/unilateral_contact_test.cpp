@@ -28,8 +28,10 @@ TEST(UnilateralContact, NoVertexOfTheWholeSurfaceEndsInTheTool) {
     EXPECT_LE(contact.step(&pose).residual, 1e-9);
     Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, n);
     for (int i = 0; i < contact.watchedCount(); ++i) {
-      const auto watched = contact.watched(i);
-      traction.col(watched.vertex) = watched.force / body.mesh->vertexAreas()[watched.vertex];
+      const ContactSite& site = contact.site(i);
+      for (int p = 0; p < site.count; ++p)
+        traction.col(site.parts[p].node) += site.parts[p].weight * contact.watched(i).force /
+                                            body.mesh->vertexAreas()[site.parts[p].node];
     }
     const Eigen::Matrix3Xd displacement = solveReferenceProblem(*body.greens, traction);
     for (int v = 0; v < n; ++v) {
@@ -189,7 +191,10 @@ TEST(UnilateralContact, TwoToolsFeelEachOtherThroughTheBody) {
 }
 
 TEST(UnilateralContact, AVeryStiffElasticObstacleIsARigidOne) {
-  const TouchedBody body = touchedSphere(3, true);
+  // Triangles without a needle's angle, that neither is touched inside them.
+  const Shape even = icosphere(3);
+  const TouchedBody body =
+      touchedBody(even, fixedWhere(even, [](const auto& x) { return x.z() < -0.6; }), true);
   const auto shape = std::make_shared<MeshShape>(body.mesh);
   UnilateralContact rigid(body.greens, body.mesh, {{shape, 0.3}}, still(300));
   UnilateralContact stiff(body.greens, body.mesh,
@@ -230,11 +235,13 @@ TEST(UnilateralContact, ChangesAtRunTimeNeedNoComputation) {
   EXPECT_LE((contact.wrench(0).force - 3 * before).norm(), 1e-14);
   contact.setStiffnessScale(1);
   contact.setFriction(0, 0);
-  contact.step(&pose);
   UnilateralContact smooth(body.greens, body.mesh, ball(0.3), still(200));
-  smooth.step(&pose);
+  for (int tick = 0; tick < 5; ++tick) {
+    contact.step(&pose);
+    smooth.step(&pose);
+  }
   // Points inside triangles have settled to 1e-4 of their triangles.
-  EXPECT_LE((contact.wrench(0).force - smooth.wrench(0).force).norm(), 1e-5 * before.norm());
+  EXPECT_LE((contact.wrench(0).force - smooth.wrench(0).force).norm(), 3e-5 * before.norm());
   EXPECT_GT((smooth.wrench(0).force - before).norm(), 1e-4 * before.norm());
   EXPECT_THROW(contact.setFriction(0, -1), std::invalid_argument);
   EXPECT_THROW(contact.setStiffnessScale(0), std::invalid_argument);

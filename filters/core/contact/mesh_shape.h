@@ -26,6 +26,7 @@ class MeshShape final : public RigidShape {
   /// 0 if normals on both sides of a convex edge differ by more than 30 degrees; else the least of
   /// the radii by which they turn between the triangles' centres.
   double smallestRadius() const noexcept override { return smallestRadius_; }
+  bool isFaceted() const noexcept override { return true; }
 
  private:
   Eigen::Vector3d pseudonormal(const SurfacePoint& point) const noexcept;

@@ -42,6 +42,9 @@ class RigidShape {
   /// Of what sticks out of the shape, m; 0 for edges. Finer meshes than this meet it with their
   /// vertices.
   virtual double smallestRadius() const noexcept = 0;
+  /// Whether it is made of flat facets: then its normal jumps from place to place, and what lies
+  /// deepest in it is searched for.
+  virtual bool isFaceted() const noexcept { return false; }
 };
 
 /// A ball around the origin.

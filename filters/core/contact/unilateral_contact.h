@@ -19,11 +19,11 @@ namespace palpate {
 /// enter an obstacle, press on it alone, and slip by Coulomb's law. The contact forces of all
 /// obstacles follow together, from the rows of watched points alone ([JP01] sections 4.3 and 5.3).
 ///
-/// The points are the vertices, and in each triangle with an edge longer than one and a half times
-/// the smallest radius of a rigid tool, which vertices alone would let through, the one that lies
-/// deepest in it as the surface is deformed: the centre of pressure, whose force acts on the
-/// corners by its barycentric coordinates. It follows the tool from step to step. On tools with
-/// sharp edges the triangle's normal is that of the contact.
+/// The points are the vertices, and in each triangle with an edge longer than about a third of the
+/// smallest radius of a rigid tool (one and a half times that of a mesh), which would sink in
+/// between vertices, the one that lies deepest in it as the surface is deformed: the centre of
+/// pressure, whose force acts on the corners by its barycentric coordinates. It follows the tool
+/// from step to step. On tools with sharp edges the triangle's normal is that of the contact.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when an obstacle or the surface has
@@ -50,11 +50,15 @@ namespace palpate {
 /// All memory is reserved by the constructor: nothing else allocates or throws.
 class UnilateralContact {
  public:
-  /// Of a tool's smallest radius, the edge beyond which triangles are touched inside: a ball
-  /// between the corners of an equilateral triangle with edges so long is half its radius below
-  /// them, and of 1.73 times falls through. Shorter edges would give more contacts than nodes,
-  /// which tell nothing new.
-  static constexpr double kLargeEdge = 1.5;
+  /// Of a tool's smallest radius, the edge beyond which triangles are touched inside. A ball
+  /// between the corners of an equilateral triangle with edges h lies h^2 / 6 R below them, with
+  /// edges so long a fiftieth of its radius. Where the triangles are smaller than that, points
+  /// inside them would be more contacts than the surface has nodes, and tell nothing new.
+  static constexpr double kLargeEdge = 0.35;
+  /// The same for tools of facets, to which a point inside a triangle costs a search, and which let
+  /// it settle between two normals only: a ball between corners so far apart is half its radius
+  /// below them.
+  static constexpr double kLargeEdgeOfFacets = 1.5;
   static constexpr double kNear = 1.0 / 4;  ///< of the margin, from where these are watched
 
   /// @throws std::invalid_argument for another surface's Green's functions, without obstacle or
@@ -154,6 +158,7 @@ class UnilateralContact {
 
   void hold() noexcept;
   void setHeldAt(int contact, bool held) noexcept;
+  void letGo(int contact) noexcept;
   bool canHold(int contact) const noexcept;
   bool isHeldBeside(int triangle) const noexcept;
   bool isHeldFrom(int obstacle, int vertex) const noexcept;

@@ -15,7 +15,18 @@ void UnilateralContact::setHeld(int obstacle, bool held) noexcept {
   moving.isHeld = held;
   if (held) return;
   for (int contact = 0; contact < solver_.count(); ++contact)
-    if (anchors_[contact].obstacle == obstacle) setHeldAt(contact, false);
+    if (anchors_[contact].obstacle == obstacle && anchors_[contact].isHeld) {
+      setHeldAt(contact, false);
+      letGo(contact);
+    }
+}
+
+/// Takes the force of a contact that pulls: the surface goes back from there, and its gaps are to
+/// be linearised where it will be.
+void UnilateralContact::letGo(int contact) noexcept {
+  const ContactAnchor& anchor = anchors_[contact];
+  const Eigen::Vector3d way = normalOf(anchor, proximity(anchor.obstacle, placeOf(contact)));
+  if (way.dot(solver_.force(contact)) < 0) solver_.setForce(contact, Eigen::Vector3d::Zero());
 }
 
 void UnilateralContact::setHeldAt(int contact, bool held) noexcept {

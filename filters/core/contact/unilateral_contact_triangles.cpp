@@ -20,6 +20,9 @@ constexpr double kSoon = 1.0 / 32;
 constexpr double kNeighbourhood = 0.1;  ///< of the mean edge
 constexpr int kBalanceSteps = 12;
 constexpr double kSiteAccuracy = 1e-4;  ///< of barycentric coordinates
+/// From a corner, in barycentric coordinates, where a point begins to be watched; it ends in the
+/// corner. Contacts that are nearer to each other than a hundredth of an edge say the same twice.
+constexpr double kOffCorner = 0.03;
 
 }  // namespace
 
@@ -28,11 +31,13 @@ struct UnilateralContact::FacePoint {
   Eigen::Vector3d barycentric, place, faceNormal;
   Proximity near;
 
-  bool isCorner() const { return barycentric.maxCoeff() > 1 - 1e-9; }
+  bool isCorner(double within = 1e-9) const { return barycentric.maxCoeff() > 1 - within; }
 };
 
 void UnilateralContact::findLargeTriangles(MovingObstacle& moving) const {
-  const double limit = kLargeEdge * moving.obstacle.shape->smallestRadius();
+  const RigidShape& shape = *moving.obstacle.shape;
+  const double limit =
+      (shape.isFaceted() ? kLargeEdgeOfFacets : kLargeEdge) * shape.smallestRadius();
   for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle)
     if (mesh_->longestEdge(triangle) > limit) moving.large.push_back(triangle);
   moving.lookInside.assign(moving.large.size(), 0);
@@ -137,7 +142,7 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
   const FacePoint point = facePoint(obstacle, now, deepestIn(obstacle, now));
   if (point.near.distance > nearness)
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
-  else if (point.isCorner() || point.near.normal.dot(point.faceNormal) > kLargestCosine ||
+  else if (point.isCorner(kOffCorner) || point.near.normal.dot(point.faceNormal) > kLargestCosine ||
            !isDeepestPart(obstacle, point))
     lookAt = travelled_ + kSoon * margin_;
   else if (watchInside(obstacle, slot, point))

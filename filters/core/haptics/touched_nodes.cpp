@@ -58,20 +58,26 @@ TouchedNodes touchedVertices(double radius, const BodySizes& body, double depth,
           rigid ? looks * lever / body.nodeArea : 0};
 }
 
-/// Of a tool that is small for it: a foot on flat triangles, all of one size.
-TouchedNodes touchedTriangles(double radius, const BodySizes& body, double depth, double margin) {
+/// Of a tool that meets triangles inside, all of one size.
+/// @param fine  as if it met vertices.
+TouchedNodes touchedTriangles(double radius, const BodySizes& body, double depth, double margin,
+                              const TouchedNodes& fine) {
+  const double effective = 1 / (1 / radius + 1 / body.radius);
   const double triangle = body.nodeArea / 2, edge = std::sqrt(4 * triangle / std::sqrt(3.0));
   const double nearness = UnilateralContact::kNear * margin;
-  const auto reach = [&](double gap) { return std::sqrt(2 * radius * gap + gap * gap); };
-  TouchedNodes touched;
-  touched.pressedInside = 1 + 4 * std::min(1.0, depth * depth / (edge * edge));
+  const auto reach = [&](double gap) { return std::sqrt(2 * effective * gap + gap * gap); };
+  TouchedNodes touched = fine;
+  // One at first, those that a dent brings near, and as many as vertices under a larger tool.
+  touched.pressedInside =
+      std::max(1 + 4 * std::min(1.0, depth * depth / (edge * edge)), fine.loaded);
   touched.loaded = 2 + touched.pressedInside;
   // Triangles within reach of a foot: the area of one with a border so wide, over its own.
   const double border = reach(0.6 * nearness + 0.28 * depth);
   touched.inside = 1 + (3 * edge * border + kPi * border * border) / triangle;
-  touched.watched = kPi * (reach(margin) * reach(margin) + reach(2 * margin) * reach(2 * margin)) /
-                    2 / body.nodeArea;
-  touched.rim = 2 * reach(margin) / body.nodeArea;
+  const double ahead = reach(margin), behind = reach(2 * margin);
+  touched.watched =
+      std::max(fine.watched, kPi * (ahead * ahead + behind * behind) / 2 / body.nodeArea);
+  touched.rim = std::max(fine.rim, 2 * ahead / body.nodeArea);
   return touched;
 }
 
@@ -83,7 +89,7 @@ TouchedNodes touchedNodes(double radius, const BodySizes& body, double depth, do
   const auto large = std::upper_bound(body.longestEdges.begin(), body.longestEdges.end(),
                                       UnilateralContact::kLargeEdge * radius);
   if (!rigid || large == body.longestEdges.end()) return fine;
-  const TouchedNodes coarse = touchedTriangles(radius, body, depth, margin);
+  const TouchedNodes coarse = touchedTriangles(radius, body, depth, margin, fine);
   const double share = static_cast<double>(body.longestEdges.end() - large) /
                        static_cast<double>(body.longestEdges.size());
   const auto mean = [share](double a, double b) { return (1 - share) * a + share * b; };
