@@ -256,6 +256,7 @@ TEST_F(SlidingContactOnAPlate, WhereThereIsNoStiffnessThereIsNoContactNorAWayInt
     EXPECT_TRUE(probe.contact.servedStiffness().allFinite());
   });
   EXPECT_LT(probe.contact.staticPoint().x(), 0.85);
+  probe.moveTo({0.99, 0.5, 0.45}, kStep, [&] { EXPECT_TRUE(probe.contact.isStuck()); });
 }
 
 TEST_F(SlidingContactOnAPlate, ATickAllocatesNothing) {

@@ -8,6 +8,7 @@
 
 #include <numeric>
 
+#include "haptics/point_touch.h"
 #include "support/contact_bodies.h"
 #include "support/synthetic_greens.h"
 #include "support/watched_contact.h"
@@ -195,6 +196,51 @@ TEST(SlidingOverACubesEdge, ChangesTheForceByLessThanATwentiethATick) {
         RecordProperty("worst" + std::to_string(mu) + "_" + std::to_string(depth),
                        std::to_string(worst));
       }
+}
+
+/// Pressed in by up to 1.5 edges, and ten times as fast: the contact point lags behind for up to
+/// 150 ticks while the force turns, but always goes on, so that nothing need end the force.
+TEST(SlidingOverACubesEdge, GoesOnHoweverDeepAndFast) {
+  const Shape cube = box({0.1, 0.1, 0.1}, {5, 5, 5});
+  const HardBody body{"cube", cube, [](const Eigen::Vector3d& x) { return x.z() < 1e-9; }, 1};
+  const auto stiffness = stiffnessOf(body);
+  int mostHeld = 0;
+  for (double mu : {0.0, 0.3, 0.8})
+    for (double depth : {0.002, 0.005, 0.01, 0.015, 0.02, 0.03})
+      for (double speed : {0.1, 0.3, 1.0}) {
+        PointTouch touch(stiffness, 1, mu);
+        const SlidingContact& contact = touch.contact(0);
+        Eigen::Vector3d place(0.05, 0.047, 0.11), before = Eigen::Vector3d::Zero();
+        int held = 0, heldBack = 0;
+        double worst = 0;
+        const auto moveTo = [&](const Eigen::Vector3d& to, double step) {
+          const Eigen::Vector3d from = place;
+          const int count = static_cast<int>(std::ceil((to - from).norm() / step));
+          for (int i = 1; i <= count; ++i) {
+            place = from + double(i) / count * (to - from);
+            ToolPose pose;
+            pose.position = place;
+            Wrench wrench;
+            heldBack += touch.step(&pose, &wrench).heldBack;
+            held += contact.wasHeldBack();
+            worst = std::max(worst, (contact.force() - before).norm() / contact.force().norm());
+            before = contact.force();
+          }
+        };
+        moveTo({0.05, 0.047, 0.1 - depth}, 1e-4);
+        held = 0;
+        worst = 0;
+        for (const Eigen::Vector3d& to : {Eigen::Vector3d(0.1 - depth, 0.047, 0.1 - depth),
+                                          Eigen::Vector3d(0.1 - depth, 0.047, 0.05)}) {
+          moveTo(to, speed * 1e-3);
+          EXPECT_TRUE(contact.isTouching()) << mu << ' ' << depth << ' ' << speed;
+          EXPECT_LT(contact.normal().dot(contact.force()), 0);
+        }
+        EXPECT_EQ(heldBack, 0) << mu << ' ' << depth << ' ' << speed;
+        EXPECT_TRUE(speed > 0.1 || depth < 0.005 || worst <= 0.05) << worst;
+        mostHeld = std::max(mostHeld, held);
+      }
+  EXPECT_GE(mostHeld, 20) << "it was held back for longer than ForceSafety bears";
 }
 
 class EnergyOf : public testing::TestWithParam<bool> {};

@@ -12,7 +12,7 @@ struct ContactCertificate {
   int iterations = 0;
   int contactCount = 0;    ///< nodes, or points, that bear a force
   bool budgetCut = false;  ///< whether iterations ended the solve before its tolerance was met
-  bool heldBack = false;   ///< whether a point that slides has not gone as far as it should
+  bool heldBack = false;   ///< whether a point that should slide has gone nowhere
   /// Whether contacts were left out for want of capacity: too small a force.
   bool truncated = false;
   bool failed = false;  ///< no usable force

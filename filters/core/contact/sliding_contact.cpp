@@ -15,6 +15,7 @@ constexpr int kMostSteps = 64;     ///< from edge to edge, a slide
 constexpr int kHalvings = 24;      ///< of the last step's length
 constexpr double kSettled = 1e-6;  ///< excess over |f| that is left to the next tick
 constexpr double kVanishingNormal = 1e-6;
+constexpr double kStill = 0.1;  ///< of the relaxation: what is less in a tick is no way
 constexpr double kLift = 1e-9;  ///< of the diagonal: what is outside for certain
 
 double spectralNorm(const Eigen::Matrix3d& symmetric) {
@@ -57,7 +58,7 @@ void SlidingContact::reset() noexcept {
   force_.setZero();
   norm_ = excess_ = 0;
   slides_ = 0;
-  isHeldBack_ = isUnserved_ = false;
+  isHeldBack_ = isStuck_ = isUnserved_ = false;
 }
 
 Eigen::Matrix3d SlidingContact::stiffnessAt(int triangle,
@@ -87,7 +88,7 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& probe,
   const double step = (hasPlace_ ? way : 0) + relaxation_;
   slides_ = 0;
   excess_ = 0;
-  isHeldBack_ = isUnserved_ = false;
+  isHeldBack_ = isStuck_ = isUnserved_ = false;
 
   double ofChange = 0;
   if (isChanging()) {
@@ -106,7 +107,9 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& probe,
   }
   const double limit = kContinuity * norm_ * step;
   if (isTouching()) {
+    const Eigen::Vector3d from = staticPoint_;
     slide(place, last, limit);
+    isStuck_ = isHeldBack_ && (staticPoint_ - from).norm() < kStill * relaxation_;
     if (!isTouching() && surface_->locator.isInside(place)) {
       // As in a hollow, where it is above x^C's tangent plane but below the surface ahead of it.
       touch(surface_->locator.nearest(place));

@@ -109,6 +109,8 @@ class SlidingContact : private SlidingState {
   double coneExcess() const noexcept { return excess_; }
   /// Whether x^C has not gone as far as it should.
   bool wasHeldBack() const noexcept { return isHeldBack_; }
+  /// Whether it has been held back and has gone nowhere, as before a place without stiffness.
+  bool isStuck() const noexcept { return isStuck_; }
   /// Whether it entered where the surface has no stiffness: then it feels nothing until it has
   /// left.
   bool isUnserved() const noexcept { return isUnserved_; }

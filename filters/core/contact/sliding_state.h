@@ -37,7 +37,7 @@ struct SlidingState {
 
   int slides_ = 0;
   double excess_ = 0;
-  bool isHeldBack_ = false, isUnserved_ = false;
+  bool isHeldBack_ = false, isStuck_ = false, isUnserved_ = false;
 };
 
 }  // namespace palpate

@@ -41,7 +41,7 @@ enum class Fault : std::uint8_t {
   FailedSolves,  ///< or forces that are not finite
   LateSolves,    ///< over the budget of time
   RoughSolves,   ///< ended by their iterations before their tolerance was met
-  HeldBack,      ///< points that have not slid as far as they should
+  HeldBack,      ///< points that should slide and have gone nowhere
   Uncomputed,    ///< the model has no Green's functions where it is touched
 };
 inline constexpr int kFaultCount = 11;

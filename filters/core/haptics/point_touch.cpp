@@ -150,7 +150,7 @@ ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noe
     wrenches[i] = {-tool.force(), Eigen::Vector3d::Zero()};
     certificate_.iterations = std::max(certificate_.iterations, tool.slideCount());
     certificate_.contactCount += tool.isTouching();
-    certificate_.heldBack |= tool.wasHeldBack();
+    certificate_.heldBack |= tool.isStuck();
     certificate_.failed |= tool.isUnserved();
     certificate_.uncomputed |= isPartial_ && tool.isUnserved();
     if (tool.isTouching())
