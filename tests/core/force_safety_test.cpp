@@ -376,6 +376,18 @@ TEST_F(AHandThatFeels, EachReasonToDoubtSolvesHasANameOfItsOwn) {
   EXPECT_EQ(names.size(), 3u);
 }
 
+TEST_F(AHandThatFeels, ATouchThatBeginsInsideIsToldAndReturnsByARamp) {
+  tickUntilItRenders();
+  request_.certificate.startedInside = true;
+  tick();
+  EXPECT_EQ(safety_.report().fault, Fault::StartedInside);
+  EXPECT_EQ(faults(Fault::StartedInside), 1);
+  request_.certificate.startedInside = false;
+  for (int i = 0; i < 10; ++i) tick();
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  expectToReturnByARamp();
+}
+
 TEST_F(AHandThatFeels, AForceOfTooFewContactsIsRenderedAsItIs) {
   tickUntilItRenders();
   request_.certificate.truncated = true;

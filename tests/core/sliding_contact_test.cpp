@@ -208,24 +208,38 @@ TEST_F(SlidingContactOnAPlate, AFastProbeIsNotLost) {
   EXPECT_GT(probe.pressing(), 0);
 }
 
-TEST_F(SlidingContactOnAPlate, AProbeThatBeginsInsideFeelsNothingUntilItHasLeft) {
-  WatchedContact probe(stiffness_, 0.5);
-  probe.advance({0.4, 0.4, 0.3});
-  probe.moveTo({0.5, 0.5, 0.2}, kStep, [&] { EXPECT_FALSE(probe.contact.isTouching()); });
-  probe.moveTo({0.5, 0.5, 0.51}, kStep);
-  EXPECT_EQ(probe.contact.force(), Eigen::Vector3d::Zero());
-  probe.moveTo({0.5, 0.5, 0.49}, kStep);
+TEST_F(SlidingContactOnAPlate, AProbeThatBeginsInsideTouchesTheNearestPlaceByAndBy) {
+  WatchedContact probe(stiffness_, 0.5), pushed(stiffness_, 0.5);
+  const Eigen::Vector3d place(0.4, 0.4, 0.45);
+  probe.advance(place);
+  EXPECT_TRUE(probe.contact.startedInside());
   EXPECT_TRUE(probe.contact.isTouching());
+  EXPECT_NEAR(probe.contact.staticPoint().z(), 0.5, 1e-12);
+  pushed.advance({0.4, 0.4, 0.51});
+  pushed.moveTo(place, kStep);
+  EXPECT_LE(probe.contact.force().norm(), 0.05 * pushed.contact.force().norm());
+  double last = 0;
+  for (int tick = 0; tick < 2000; ++tick) {  // each of which is held to the bound on jumps
+    probe.advance(place);
+    EXPECT_FALSE(probe.contact.startedInside());
+    EXPECT_GE(probe.contact.force().norm(), last * (1 - 1e-9));
+    last = probe.contact.force().norm();
+  }
+  EXPECT_LE((probe.contact.force() - pushed.contact.force()).norm(), 1e-9 * last);
+  probe.moveTo({0.4, 0.4, 0.51}, kStep);
+  EXPECT_FALSE(probe.contact.isTouching());
 }
 
 TEST_F(SlidingContactOnAPlate, APlaceThatIsNoneEndsTheContactAtOnce) {
   for (double bad : {double(NAN), double(INFINITY)}) {
     WatchedContact push = pressed(0.5);
+    const double before = push.contact.force().norm();
     push.contact.advance({0.5, bad, 0.4});
     EXPECT_EQ(push.contact.force(), Eigen::Vector3d::Zero());
     EXPECT_FALSE(push.contact.isTouching());
-    push.contact.advance({0.45, 0.5, 0.45});  // inside: nothing
-    EXPECT_EQ(push.contact.force(), Eigen::Vector3d::Zero());
+    push.contact.advance({0.45, 0.5, 0.45});  // inside: from zero
+    EXPECT_TRUE(push.contact.startedInside());
+    EXPECT_LE(push.contact.force().norm(), 0.05 * before);
   }
 }
 

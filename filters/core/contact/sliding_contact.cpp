@@ -58,7 +58,7 @@ void SlidingContact::reset() noexcept {
   force_.setZero();
   norm_ = excess_ = 0;
   slides_ = 0;
-  isHeldBack_ = isStuck_ = isUnserved_ = false;
+  isHeldBack_ = isStuck_ = isUnserved_ = startedInside_ = false;
 }
 
 Eigen::Matrix3d SlidingContact::stiffnessAt(int triangle,
@@ -88,7 +88,7 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& probe,
   const double step = (hasPlace_ ? way : 0) + relaxation_;
   slides_ = 0;
   excess_ = 0;
-  isHeldBack_ = isStuck_ = isUnserved_ = false;
+  isHeldBack_ = isStuck_ = isUnserved_ = startedInside_ = false;
 
   double ofChange = 0;
   if (isChanging()) {
@@ -134,10 +134,15 @@ const Eigen::Vector3d& SlidingContact::advance(const Eigen::Vector3d& probe,
   return force_;
 }
 
-/// Whether the way from a place outside to this one touches the surface.
+/// Whether the way from a place outside to this one touches the surface, or the first place there
+/// is lies inside.
 bool SlidingContact::begin(const Eigen::Vector3d& place) noexcept {
-  if (phase_ == Phase::Unknown) {
-    if (surface_->locator.isInside(place)) return false;
+  if (phase_ != Phase::Outside) {
+    if (surface_->locator.isInside(place)) {
+      if (phase_ == Phase::Unserved) return false;
+      touch(surface_->locator.nearest(place));
+      return startedInside_ = isTouching();
+    }
     phase_ = Phase::Outside;
     outside_ = place;
     return false;
@@ -155,7 +160,7 @@ bool SlidingContact::begin(const Eigen::Vector3d& place) noexcept {
 void SlidingContact::touch(const SurfacePoint& point) noexcept {
   const Eigen::Matrix3d stiffness = stiffnessAt(point.triangle, point.barycentric);
   isUnserved_ = !stiffness.allFinite();
-  phase_ = isUnserved_ ? Phase::Unknown : Phase::Touching;
+  phase_ = isUnserved_ ? Phase::Unserved : Phase::Touching;
   if (!isUnserved_) arrive(point, stiffness);
 }
 

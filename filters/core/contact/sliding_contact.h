@@ -13,10 +13,11 @@
 namespace palpate {
 
 /// A probe's tip on an elastic surface: it pushes, sticks, slides and pulls ([JP01] sections 6.3 to
-/// 7 and fig. 8). The contact is found where the probe's way x^H enters the undeformed body and is
-/// tracked from there on in surface coordinates, x^C, face to face; the force on the body is that
-/// of the place, f = K^H(x^C) (x^H - x^C). All of it happens on the undeformed surface; its
-/// parametric image under f is the god object x^E (PointContact::push at `point()`).
+/// 7 and fig. 8). The contact is found where the probe's way x^H enters the undeformed body, or
+/// nearest to where the way begins, if that is inside, and is tracked from there on in surface
+/// coordinates, x^C, face to face; the force on the body is that of the place, f = K^H(x^C) (x^H -
+/// x^C). All of it happens on the undeformed surface; its parametric image under f is the god
+/// object x^E (PointContact::push at `point()`).
 ///
 /// Friction is Coulomb's, |f_t| <= mu f_n, about the vertices' interpolated normals (the triangle's
 /// where they vanish): within the cone x^C sticks, beyond it slips (coulombSlip, walked over the
@@ -87,7 +88,7 @@ class SlidingContact : private SlidingState {
   void recall(const SlidingState& state) noexcept { static_cast<SlidingState&>(*this) = state; }
 
   /// Forgets the contact and what is left of its force. A probe that is within the body then
-  /// touches nothing until it has left it.
+  /// touches the place of the surface nearest to it, with a force that grows from zero.
   void reset() noexcept;
 
   bool isTouching() const noexcept { return phase_ == Phase::Touching; }
@@ -111,6 +112,8 @@ class SlidingContact : private SlidingState {
   bool wasHeldBack() const noexcept { return isHeldBack_; }
   /// Whether it has been held back and has gone nowhere, as before a place without stiffness.
   bool isStuck() const noexcept { return isStuck_; }
+  /// Whether contact began with the probe's first place, inside the body.
+  bool startedInside() const noexcept { return startedInside_; }
   /// Whether it entered where the surface has no stiffness: then it feels nothing until it has
   /// left.
   bool isUnserved() const noexcept { return isUnserved_; }

@@ -21,7 +21,7 @@ struct TouchedSurface {
 
 /// All of a SlidingContact that a tick changes.
 struct SlidingState {
-  enum class Phase { Unknown, Outside, Touching };
+  enum class Phase { Unknown, Unserved, Outside, Touching };
 
   Phase phase_ = Phase::Unknown;
   bool hasPlace_ = false;
@@ -37,7 +37,7 @@ struct SlidingState {
 
   int slides_ = 0;
   double excess_ = 0;
-  bool isHeldBack_ = false, isStuck_ = false, isUnserved_ = false;
+  bool isHeldBack_ = false, isStuck_ = false, isUnserved_ = false, startedInside_ = false;
 };
 
 }  // namespace palpate

@@ -74,6 +74,8 @@ const char* describe(Fault fault) noexcept {
       return "a contact point that could not follow its tool";
     case Fault::Uncomputed:
       return "touched where the model's Green's functions were not computed";
+    case Fault::StartedInside:
+      return "a tool that was inside the body when its touch began";
   }
   return "";
 }
@@ -158,6 +160,7 @@ Fault ForceSafety::judgeSolve(const Request& request) noexcept {
                                                       : Fault::None;
   late_ = doubt != Fault::None ? std::min(late_ + 1, settings_.lateSolves) : 0;
   if (request.certificate.uncomputed) return Fault::Uncomputed;
+  if (request.certificate.startedInside) return Fault::StartedInside;
   if (failed_ >= settings_.failedSolves) return Fault::FailedSolves;
   return late_ >= settings_.lateSolves ? doubt : Fault::None;
 }

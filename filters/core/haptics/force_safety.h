@@ -35,16 +35,17 @@ enum class Fault : std::uint8_t {
   None,
   InvalidPose,  ///< not finite, out of reach, no rotation
   Jump,
-  Silent,        ///< no new report
-  Unplugged,     ///< the device is not there
-  Undelivered,   ///< the device takes no wrench
-  FailedSolves,  ///< or forces that are not finite
-  LateSolves,    ///< over the budget of time
-  RoughSolves,   ///< ended by their iterations before their tolerance was met
-  HeldBack,      ///< points that should slide and have gone nowhere
-  Uncomputed,    ///< the model has no Green's functions where it is touched
+  Silent,         ///< no new report
+  Unplugged,      ///< the device is not there
+  Undelivered,    ///< the device takes no wrench
+  FailedSolves,   ///< or forces that are not finite
+  LateSolves,     ///< over the budget of time
+  RoughSolves,    ///< ended by their iterations before their tolerance was met
+  HeldBack,       ///< points that should slide and have gone nowhere
+  Uncomputed,     ///< the model has no Green's functions where it is touched
+  StartedInside,  ///< a point was inside the body when its touch began; the force ramps from there
 };
-inline constexpr int kFaultCount = 11;
+inline constexpr int kFaultCount = 12;
 
 /// In words, e.g. "no report from the device".
 const char* describe(Fault fault) noexcept;

@@ -151,6 +151,7 @@ ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noe
     certificate_.iterations = std::max(certificate_.iterations, tool.slideCount());
     certificate_.contactCount += tool.isTouching();
     certificate_.heldBack |= tool.isStuck();
+    certificate_.startedInside |= tool.startedInside();
     certificate_.failed |= tool.isUnserved();
     certificate_.uncomputed |= isPartial_ && tool.isUnserved();
     if (tool.isTouching())
