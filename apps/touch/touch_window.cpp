@@ -152,6 +152,17 @@ void printRendered(vtkInteractorStyleHaptic* style, int tool, const double* forc
               rendered[1], rendered[2]);
 }
 
+/// Forces between bodies.
+void printPartners(vtkInteractorStyleHaptic* style) {
+  for (int partner = 0; partner < style->GetNumberOfPartners(); ++partner) {
+    double force[3];
+    style->GetPartnerForce(partner, force);
+    for (double& component : force) component += 0.0;  // no negative zeros
+    std::printf("body %d   force %.6g %.6g %.6g N, of body 0\n", partner + 1, force[0], force[1],
+                force[2]);
+  }
+}
+
 void printState(vtkInteractorStyleHaptic* style) {
   std::cout << style->GetStatus() << "\n";
   for (int tool = 0; tool < style->GetNumberOfTools(); ++tool) {
@@ -161,11 +172,14 @@ void printState(vtkInteractorStyleHaptic* style) {
     for (double* vector : {force, torque})
       for (int k = 0; k < 3; ++k) vector[k] += 0.0;  // no negative zeros
     style->GetContactPoint(tool, at);
-    std::printf("tool %d   force %.6g %.6g %.6g N   torque %.6g %.6g %.6g N m\n", tool, force[0],
-                force[1], force[2], torque[0], torque[1], torque[2]);
+    std::printf("tool %d   force %.6g %.6g %.6g N", tool, force[0], force[1], force[2]);
+    if (style->HasTorques())
+      std::printf("   torque %.6g %.6g %.6g N m", torque[0], torque[1], torque[2]);
+    std::printf("\n");
     if (style->IsTouching(tool)) std::printf("         at %.6g %.6g %.6g\n", at[0], at[1], at[2]);
     printRendered(style, tool, force);
   }
+  printPartners(style);
   std::fflush(stdout);
   printProbes(style);
   std::cout << style->GetFaultTable() << std::flush;

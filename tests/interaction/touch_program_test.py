@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from support.touch import PRESS, RATE, REST, STROKE, TOP, Touch, block_model, path, write_recording
+from support.touch import PRESS, RATE, REST, SIZE, STROKE, TOP, Touch, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 from support.window import read_picture
 
@@ -94,6 +94,48 @@ class Headless(Program):
                       "first at 0.9 s\ntool 0   fault: the device is not there, in 2 ticks, first at 1.2 s\n",
                       printed)
         self.assertNotIn("fault", self.run_well(*self.scripted(PRESS), "--seconds", 1))
+
+    def test_a_point_that_starts_inside_is_told_and_comes_to_bear_its_force(self):
+        inside = ((0, (0, 0, -2)), (2.5, (0, 0, -2)))
+        printed, pressed = (self.run_well(*self.scripted(script), "--seconds", seconds)
+                            for script, seconds in ((inside, 2.5), (PRESS, REST + 0.4)))
+        self.assertIn("tool 0   fault: a tool that was inside the body when its touch began, in 1 ticks, "
+                      "first at 0 s\n", printed)
+        self.assertNotIn("fault", pressed)
+        force, expected = (float(re.search(r"tool 0   force \S+ \S+ (\S+) N", text)[1])
+                           for text in (printed, pressed))
+        self.assertAlmostEqual(force, expected, delta=0.01 * expected)
+        self.assertNotIn("rendered", printed)
+
+    def test_forces_between_bodies_are_told_and_torques_where_they_are_computed(self):
+        scene, depth = self.folder / "scene.json", 0.002
+        described = {
+            "models": [{"file": str(self.model)},
+                       {"file": str(self.model), "position": [0, SIZE, 2 * SIZE - depth],
+                        "orientation": {"axis": [1, 0, 0], "angle": np.pi}}],
+            "tools": [{"shape": "sphere", "radius": 0.02, "device": "m"}],
+            "devices": [{"name": "m", "type": "simulated"}]}
+        for torque in (False, True):
+            scene.write_text(json.dumps({**described, "effects": {"elastic_elastic": True, "torque": torque}}))
+            printed = self.run_well("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+            self.assertEqual(torque, "torque" in printed, printed)
+            found = re.search(r"(?m)^body 1   force (\S+) (\S+) (\S+) N, of body 0$", printed)
+            self.assertTrue(found, printed)
+            # As two bars of E = 10 kPa in a row, each half the depth shorter; their feet hold them in
+            # breadth, and a mesh of six squares yields a little more at the rims.
+            bars = 1e4 * SIZE * depth / 2
+            self.assertAlmostEqual(float(found[3]), bars, delta=0.1 * bars)
+
+    def test_a_margin_far_beyond_the_edges_is_told(self):
+        scene = self.folder / "scene.json"
+        for margin, told in ((0.01, False), (0.05, True)):
+            scene.write_text(json.dumps({
+                "models": [{"file": str(self.model)}], "solver": {"margin": margin},
+                "tools": [{"shape": "sphere", "radius": 0.02, "device": "m"}],
+                "devices": [{"name": "m", "type": "simulated"}]}))
+            ran = self.start("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertEqual(told, "warning: solver.margin, 0.05 m, is much wider than" in ran.stderr, ran.stderr)
 
     def test_probes_of_a_scene_are_told_with_their_displacements(self):
         write_recording(self.folder / "press.txt", path(*PRESS))

@@ -176,7 +176,7 @@ void requireTouchable(const SceneBody& body) {
 }
 
 std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneBody>& bodies) {
-  constexpr double coarse = 0.25, coarseMask = 0.5;  // of the mean edge
+  constexpr double coarse = 0.25, coarseMask = 0.5, wideMargin = 2;  // of the mean edge
   std::vector<std::string> warnings;
   const GreensFunctions& greens = *bodies[0].greens;
   if (const int missing = greens.missingCount())
@@ -197,6 +197,11 @@ std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneB
     warnIf(tool.radius > 0 && tool.radius < coarse * edge, "a tool", tool.radius);
   const double mask = scene.isOfPoints() ? maskRadiusOf(scene.effects, *bodies[0].mesh) : 0;
   warnIf(mask > 0 && mask < coarseMask * edge, "the pressure mask", mask);
+  if (!scene.isOfPoints() && scene.solver.margin > wideMargin * edge)
+    warnings.push_back("solver.margin, " + text(scene.solver.margin) +
+                       " m, is much wider than the model's edges, " + text(edge) +
+                       " m: all vertices so near to a tool are watched, which takes time and the "
+                       "room for those that touch; half an edge is the default");
   return warnings;
 }
 

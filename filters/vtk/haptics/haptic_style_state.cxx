@@ -54,6 +54,23 @@ std::string vtkInteractorStyleHaptic::GetFault(int tool)
   return this->Internals->Session.Fault(tool);
 }
 
+bool vtkInteractorStyleHaptic::HasTorques()
+{
+  const palpate::Scene& scene = this->Internals->Session.Scene();
+  return scene.effects.torque && !scene.isOfPoints();
+}
+
+int vtkInteractorStyleHaptic::GetNumberOfPartners()
+{
+  return std::max(0, static_cast<int>(this->Internals->Session.Scene().models.size()) - 1);
+}
+
+void vtkInteractorStyleHaptic::GetPartnerForce(int partner, double force[3])
+{
+  const Eigen::Vector3d sum = this->Internals->Session.PartnerForce(partner);
+  std::copy_n(sum.data(), 3, force);
+}
+
 int vtkInteractorStyleHaptic::GetNumberOfProbes()
 {
   return static_cast<int>(this->Internals->Session.Scene().effects.probes.size());

@@ -73,6 +73,8 @@ public:
   const ServoSnapshot& Snapshot() const { return this->Latest ? *this->Latest : this->Nothing; }
   const ToolContact& Contact(int tool) const;
   Wrench Rendered(int tool) const;
+  /// What the first body does to another that it meets, N; numbered from 0.
+  Eigen::Vector3d PartnerForce(int partner) const;
   std::string Fault(int tool) const;
   /// A line for each tool and fault that there was: how often, and when first.
   std::string FaultTable() const;

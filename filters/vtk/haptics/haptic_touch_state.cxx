@@ -60,6 +60,20 @@ const ProbeReading* HapticTouch::ProbeInside(int probe) const
   return nullptr;
 }
 
+Eigen::Vector3d HapticTouch::PartnerForce(int partner) const
+{
+  const ContactSnapshot& contact = this->Snapshot().contact;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (int i = 0; i < contact.loadedCount; ++i)
+  {
+    if (contact.loadedBodies[i] == partner + 1)
+    {
+      force += contact.loads[i];
+    }
+  }
+  return force;
+}
+
 std::string HapticTouch::Fault(int tool) const
 {
   const auto& tools = this->Snapshot().tools;

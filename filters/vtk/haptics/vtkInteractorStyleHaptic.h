@@ -215,7 +215,7 @@ public:
   bool IsSliding(int tool = 0);
   /** What the model does to the tool, before the limits of safety, N. */
   void GetForce(int tool, double force[3]);
-  /** About the tool's position, N m. */
+  /** About the tool's position, N m; zero unless HasTorques. */
   void GetTorque(int tool, double torque[3]);
   /** What the device rendered, in its own frame, N. */
   void GetRenderedForce(int tool, double force[3]);
@@ -224,6 +224,16 @@ public:
   void GetContactPoint(int tool, double point[3]);
   /** The last fault, in words; empty without one. */
   std::string GetFault(int tool = 0);
+  /** Whether torques are computed: a scene's "torque", of tools with a shape. */
+  bool HasTorques();
+  ///@}
+
+  ///@{
+  /**
+   * A scene's other bodies, and what the first one does to each at the last Update, N.
+   */
+  int GetNumberOfPartners();
+  void GetPartnerForce(int partner, double force[3]);
   ///@}
 
   ///@{
