@@ -264,6 +264,35 @@ TEST(UnilateralContactTriangles, OverlappingPartsPressOnceWhereTheyCoincide) {
   }
 }
 
+/// The facets of a smooth tool have normals that differ by up to .2.
+TEST(UnilateralContactTriangles, ABallOfTrianglesRestsAndPressesAsABall) {
+  const TouchedBody& body = coarseCube();
+  for (int level : {2, 3})
+    for (double radius : {0.05, 0.1, 0.2, 0.3})
+      for (double friction : {0.0, 0.3})
+        for (double x : {0.3, 0.45}) {
+          UnilateralContact smooth(body.greens, body.mesh,
+                                   {{std::make_shared<SphereShape>(radius), friction}}, {});
+          const auto shape = std::make_shared<MeshShape>(icosphere(level).scaled(radius).mesh());
+          UnilateralContact faceted(body.greens, body.mesh, {{shape, friction}}, {});
+          Eigen::Vector3d before = Eigen::Vector3d::Zero();
+          double jitter = 0;
+          for (int tick = 0; tick < 400; ++tick) {
+            const RigidPose pose = at({x, 0.37, 1 + radius - 0.02 * std::min(1.0, tick / 200.0)});
+            smooth.step(&pose);
+            faceted.step(&pose);
+            if (tick > 300) jitter = std::max(jitter, (faceted.force(0) - before).norm());
+            before = faceted.force(0);
+          }
+          const std::string what = std::to_string(level) + " " + std::to_string(radius) + " " +
+                                   std::to_string(friction) + " " + std::to_string(x);
+          EXPECT_LE(jitter, 1e-3 * before.norm()) << what;
+          // Facets lie up to 2 and .5 % of the radius within the ball, of which .02 is pressed in.
+          const double missing = (level == 2 ? 0.02 : 0.005) * radius / 0.02;
+          EXPECT_LE((before - smooth.force(0)).norm(), (missing + 0.05) * before.norm()) << what;
+        }
+}
+
 TEST(UnilateralContactTriangles, StepsDoNotAllocate) {
   ASSERT_TRUE(allocationsAreCounted());
   const TouchedBody& body = coarseSphere();

@@ -172,11 +172,12 @@ void UnilateralContact::moveSites() noexcept {
 }
 
 /// The normal of a contact. Beside an edge or corner of a tool that pierces a triangle the way out
-/// of the tool is to its side; but a face can yield to them along its own normal alone.
+/// of the tool is to its side; but a face can yield to them along its own normal alone. So it is
+/// with tools of small facets, whose normals jump from one to the next.
 Eigen::Vector3d UnilateralContact::normalOf(const ContactAnchor& anchor,
                                             const Proximity& near) const noexcept {
-  const bool isSharp = obstacles_[anchor.obstacle].obstacle.shape->smallestRadius() == 0;
-  return anchor.vertex < 0 && isSharp ? (-anchor.faceNormal).eval() : near.normal;
+  const bool isFaceted = obstacles_[anchor.obstacle].obstacle.shape->isFaceted();
+  return anchor.vertex < 0 && isFaceted ? (-anchor.faceNormal).eval() : near.normal;
 }
 
 /// Gap and slip of each watched point where it is now, to first order in its displacement.

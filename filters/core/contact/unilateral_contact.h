@@ -23,7 +23,7 @@ namespace palpate {
 /// smallest radius of a rigid tool (one and a half times that of a mesh), which would sink in
 /// between vertices, the one that lies deepest in it as the surface is deformed: the centre of
 /// pressure, whose force acts on the corners by its barycentric coordinates. It follows the tool
-/// from step to step. On tools with sharp edges the triangle's normal is that of the contact.
+/// from step to step. On tools of facets the triangle's normal is that of the contact.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when an obstacle or the surface has
@@ -55,9 +55,8 @@ class UnilateralContact {
   /// edges so long a fiftieth of its radius. Where the triangles are smaller than that, points
   /// inside them would be more contacts than the surface has nodes, and tell nothing new.
   static constexpr double kLargeEdge = 0.35;
-  /// The same for tools of facets, to which a point inside a triangle costs a search, and which let
-  /// it settle between two normals only: a ball between corners so far apart is half its radius
-  /// below them.
+  /// The same for tools of facets, to which a point inside a triangle costs a search: a ball
+  /// between corners so far apart is half its radius below them.
   static constexpr double kLargeEdgeOfFacets = 1.5;
   static constexpr double kNear = 1.0 / 4;  ///< of the margin, from where these are watched
 
