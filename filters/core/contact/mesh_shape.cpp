@@ -6,24 +6,64 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
+#include "mesh/smooth_patches.h"
 #include "mesh/triangle_queries.h"
 #include "mesh/triangle_sides.h"
 
 namespace palpate {
 namespace {
 
+constexpr double kSmoothAngle = 30;  ///< degrees, between the normals beside an edge
+constexpr double kOnEdge = 1e-12;    ///< of barycentric coordinates
+
+/// A triangle's normal, by the angle at one of its corners.
+Eigen::Vector3d weightedNormal(const SurfaceMesh& mesh, int triangle, int corner) {
+  const auto place = [&](int k) -> Eigen::Vector3d {
+    return mesh.points().col(mesh.triangles()(k % 3, triangle));
+  };
+  const Eigen::Vector3d a = place(corner + 1) - place(corner),
+                        b = place(corner + 2) - place(corner);
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * mesh.triangleNormals().col(triangle);
+}
+
 Eigen::Matrix3Xd angleWeightedNormals(const SurfaceMesh& mesh) {
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, mesh.vertexCount());
   for (int f = 0; f < mesh.triangleCount(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = mesh.points().col(mesh.triangles()(k, f));
-      const Eigen::Vector3d a = mesh.points().col(mesh.triangles()((k + 1) % 3, f)) - corner;
-      const Eigen::Vector3d b = mesh.points().col(mesh.triangles()((k + 2) % 3, f)) - corner;
-      normals.col(mesh.triangles()(k, f)) +=
-          std::atan2(a.cross(b).norm(), a.dot(b)) * mesh.triangleNormals().col(f);
-    }
+    for (int k = 0; k < 3; ++k) normals.col(mesh.triangles()(k, f)) += weightedNormal(mesh, f, k);
   return normals;
+}
+
+/// Sums of the weighted normals of a triangle's patch at each corner, at 3 f + k.
+Eigen::Matrix3Xd patchNormals(const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
+  std::map<std::pair<int, int>, Eigen::Vector3d> sums;  // of a vertex and patch
+  const auto sum = [&](int f, int k) -> Eigen::Vector3d& {
+    const std::pair key(mesh.triangles()(k, f), patches[f]);
+    return sums.try_emplace(key, Eigen::Vector3d::Zero()).first->second;
+  };
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    for (int k = 0; k < 3; ++k) sum(f, k) += weightedNormal(mesh, f, k);
+  Eigen::Matrix3Xd normals(3, 3 * mesh.triangleCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    for (int k = 0; k < 3; ++k) normals.col(3 * f + k) = sum(f, k).normalized();
+  return normals;
+}
+
+/// Whether the edge opposite to corner k of triangle f is a rim of its patch, at 3 f + k.
+std::vector<char> rimsOf(const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
+  std::vector<char> isRim(3 * std::size_t(mesh.triangleCount()), false);
+  forEachEdge(sortedSides(mesh.triangles()), [&](auto first, auto last) {
+    const bool smooth = std::distance(first, last) == 2 &&
+                        patches[first->triangle] == patches[std::next(first)->triangle];
+    for (auto side = first; !smooth && side != last; ++side)
+      for (int k = 0; k < 3; ++k) {
+        const int vertex = mesh.triangles()(k, side->triangle);
+        if (vertex != side->low && vertex != side->high) isRim[3 * side->triangle + k] = true;
+      }
+  });
+  return isRim;
 }
 
 /// Sums of the normals on both sides of the edge opposite to corner k of triangle f, at 3 f + k.
@@ -72,14 +112,26 @@ MeshShape::MeshShape(std::shared_ptr<const SurfaceMesh> mesh)
       vertexNormals_(angleWeightedNormals(*mesh)),
       edgeNormals_(edgeNormals(*mesh)),
       reach_(mesh->points().colwise().norm().maxCoeff()),
-      smallestRadius_(smallestConvexRadius(*mesh)) {}
+      smallestRadius_(smallestConvexRadius(*mesh)) {
+  const Eigen::VectorXi patches = findSmoothPatches(*mesh, kSmoothAngle);
+  cornerNormals_ = patchNormals(*mesh, patches);
+  isSharp_ = rimsOf(*mesh, patches);
+}
+
+Eigen::Vector3d MeshShape::smoothNormal(const Proximity& near) const noexcept {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (near.barycentric[k] <= kOnEdge && isSharp_[3 * near.triangle + k]) return near.normal;
+    normal += near.barycentric[k] * cornerNormals_.col(3 * near.triangle + k);
+  }
+  return normal.normalized();
+}
 
 Eigen::Vector3d MeshShape::pseudonormal(const SurfacePoint& point) const noexcept {
-  constexpr double onEdge = 1e-12;
   const Eigen::Vector3d& weights = point.barycentric;
   int corner = -1, zeros = 0;
   for (int k = 0; k < 3; ++k)
-    if (weights[k] <= onEdge) {
+    if (weights[k] <= kOnEdge) {
       ++zeros;
       corner = k;
     }

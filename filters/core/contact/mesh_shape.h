@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "contact/rigid_shape.h"
 #include "mesh/surface_locator.h"
@@ -27,6 +28,9 @@ class MeshShape final : public RigidShape {
   /// the radii by which they turn between the triangles' centres.
   double smallestRadius() const noexcept override { return smallestRadius_; }
   bool isFaceted() const noexcept override { return true; }
+  /// Interpolated between the corners' normals, angle-weighted over a smooth patch each; on the
+  /// patch's rim the proximity's own.
+  Eigen::Vector3d smoothNormal(const Proximity& near) const noexcept override;
 
  private:
   Eigen::Vector3d pseudonormal(const SurfacePoint& point) const noexcept;
@@ -34,6 +38,8 @@ class MeshShape final : public RigidShape {
   SurfaceLocator locator_;
   Eigen::Matrix3Xd vertexNormals_;  ///< angle-weighted, #V
   Eigen::Matrix3Xd edgeNormals_;    ///< 3 #F: of the edge opposite to each corner
+  Eigen::Matrix3Xd cornerNormals_;  ///< 3 #F: of a patch at its corner
+  std::vector<char> isSharp_;       ///< 3 #F: whether another patch lies beyond that edge
   double reach_, smallestRadius_;
 };
 

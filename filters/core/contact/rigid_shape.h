@@ -45,6 +45,9 @@ class RigidShape {
   /// Whether it is made of flat facets: then its normal jumps from place to place, and what lies
   /// deepest in it is searched for.
   virtual bool isFaceted() const noexcept { return false; }
+  /// The normal of the smooth surface that facets stand for, unit, in the shape's frame.
+  /// @param near  of this shape.
+  virtual Eigen::Vector3d smoothNormal(const Proximity& near) const noexcept { return near.normal; }
 };
 
 /// A ball around the origin.

@@ -173,11 +173,16 @@ void UnilateralContact::moveSites() noexcept {
 
 /// The normal of a contact. Beside an edge or corner of a tool that pierces a triangle the way out
 /// of the tool is to its side; but a face can yield to them along its own normal alone. So it is
-/// with tools of small facets, whose normals jump from one to the next.
+/// with tools of small facets, whose normals jump from one to the next. A vertex is pressed along
+/// the normal of what the facets stand for: those round an apex would drive it to a side.
 Eigen::Vector3d UnilateralContact::normalOf(const ContactAnchor& anchor,
                                             const Proximity& near) const noexcept {
-  const bool isFaceted = obstacles_[anchor.obstacle].obstacle.shape->isFaceted();
-  return anchor.vertex < 0 && isFaceted ? (-anchor.faceNormal).eval() : near.normal;
+  const MovingObstacle& moving = obstacles_[anchor.obstacle];
+  if (!moving.obstacle.shape->isFaceted()) return near.normal;
+  if (anchor.vertex < 0) return -anchor.faceNormal;
+  Proximity own = near;
+  own.normal = moving.pose.orientation.conjugate() * near.normal;
+  return moving.pose.orientation * moving.obstacle.shape->smoothNormal(own);
 }
 
 /// Gap and slip of each watched point where it is now, to first order in its displacement.
