@@ -148,18 +148,19 @@ TEST(UnilateralContact, ACapsuleWithoutLengthIsABall) {
             1e-9);
 }
 
+/// Of balls that meet vertices alone: parts have fewer points inside triangles.
 TEST(UnilateralContact, OverlappingPartsOfOneToolAreOneTool) {
   const TouchedBody body = touchedSphere(3, true);
-  std::vector<Obstacle> parts = ball(0.3, 0.4);
+  std::vector<Obstacle> parts = ball(0.8, 0.4);
   parts.push_back(parts[0]);
   for (Obstacle& part : parts) part.tool = 0;
-  UnilateralContact one(body.greens, body.mesh, ball(0.3, 0.4), {});
+  UnilateralContact one(body.greens, body.mesh, ball(0.8, 0.4), {});
   UnilateralContact both(body.greens, body.mesh, parts, {});
   for (int tick = 0; tick < 60; ++tick) {
-    const RigidPose pose = at(0.005 * tick, 0, 1.28);
+    const RigidPose pose = at(0.005 * tick, 0, 1.78);
     // The second part sinks in deeper from the middle of the way on, and takes the vertices over.
     const double lower = std::max(0.0, 1e-3 * (tick - 30));
-    const RigidPose poses[2] = {pose, at(0.005 * tick, 0, 1.29 - lower)};
+    const RigidPose poses[2] = {pose, at(0.005 * tick, 0, 1.79 - lower)};
     one.step(&pose);
     EXPECT_LE(both.step(poses).residual, 1e-9);
     std::vector<int> seen(body.mesh->vertexCount(), 0);

@@ -77,11 +77,11 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
     moving.obstacle = std::move(obstacle);
     moving.lookAt.assign(mesh_->vertexCount(), 0);
     moving.isWatched.assign(mesh_->vertexCount(), false);
-    if (moving.body == 0) findLargeTriangles(moving);
     while (static_cast<int>(partOf_.size()) <= moving.obstacle.tool)
       partOf_.emplace_back(mesh_->vertexCount(), -1);
     obstacles_.push_back(std::move(moving));
   }
+  findLargeTriangles();
   anchors_.resize(capacity());
   isHeldVertex_.assign(mesh_->vertexCount(), false);
   holders_.assign(mesh_->vertexCount(), 0);

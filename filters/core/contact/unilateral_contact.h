@@ -20,9 +20,9 @@ namespace palpate {
 /// obstacles follow together, from the rows of watched points alone ([JP01] sections 4.3 and 5.3).
 ///
 /// The points are the vertices, and in each triangle with an edge longer than about a third of the
-/// smallest radius of a rigid tool (one and a half times that of a mesh), which would sink in
-/// between vertices, the one that lies deepest in it as the surface is deformed: the centre of
-/// pressure, whose force acts on the corners by its barycentric coordinates. It follows the tool
+/// smallest radius of a rigid tool (one and a half times that of a mesh or a hand), which would
+/// sink in between vertices, the one that lies deepest in it as the surface is deformed: the centre
+/// of pressure, whose force acts on the corners by its barycentric coordinates. It follows the tool
 /// from step to step. On tools of facets the triangle's normal is that of the contact.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
@@ -55,9 +55,10 @@ class UnilateralContact {
   /// edges so long a fiftieth of its radius. Where the triangles are smaller than that, points
   /// inside them would be more contacts than the surface has nodes, and tell nothing new.
   static constexpr double kLargeEdge = 0.35;
-  /// The same for tools of facets, to which a point inside a triangle costs a search: a ball
-  /// between corners so far apart is half its radius below them.
-  static constexpr double kLargeEdgeOfFacets = 1.5;
+  /// The same for tools of facets, to which a point inside a triangle costs a search, and of
+  /// several parts, which share the points of a triangle between them: a ball between corners so
+  /// far apart is half its radius below them.
+  static constexpr double kLargeEdgeOfMany = 1.5;
   static constexpr double kNear = 1.0 / 4;  ///< of the margin, from where these are watched
 
   /// @throws std::invalid_argument for another surface's Green's functions, without obstacle or
@@ -141,7 +142,7 @@ class UnilateralContact {
   void dismiss() noexcept;
 
   struct FacePoint;
-  void findLargeTriangles(MovingObstacle& moving) const;
+  void findLargeTriangles();
   Eigen::Matrix3d restCorners(int triangle) const noexcept;
   Eigen::Matrix3d cornersOf(int triangle) const noexcept;
   Eigen::Vector3d deepestIn(int obstacle, const Eigen::Matrix3d& corners) const noexcept;

@@ -34,13 +34,20 @@ struct UnilateralContact::FacePoint {
   bool isCorner(double within = 1e-9) const { return barycentric.maxCoeff() > 1 - within; }
 };
 
-void UnilateralContact::findLargeTriangles(MovingObstacle& moving) const {
-  const RigidShape& shape = *moving.obstacle.shape;
-  const double limit =
-      (shape.isFaceted() ? kLargeEdgeOfFacets : kLargeEdge) * shape.smallestRadius();
-  for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle)
-    if (mesh_->longestEdge(triangle) > limit) moving.large.push_back(triangle);
-  moving.lookInside.assign(moving.large.size(), 0);
+void UnilateralContact::findLargeTriangles() {
+  for (MovingObstacle& moving : obstacles_) {
+    if (moving.body > 0) continue;
+    const RigidShape& shape = *moving.obstacle.shape;
+    const int tool = moving.obstacle.tool;
+    const auto parts = std::count_if(obstacles_.begin(), obstacles_.end(), [&](const auto& other) {
+      return tool >= 0 && other.obstacle.tool == tool;
+    });
+    const bool isMany = parts > 1 || shape.isFaceted();
+    const double limit = (isMany ? kLargeEdgeOfMany : kLargeEdge) * shape.smallestRadius();
+    for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle)
+      if (mesh_->longestEdge(triangle) > limit) moving.large.push_back(triangle);
+    moving.lookInside.assign(moving.large.size(), 0);
+  }
 }
 
 Eigen::Matrix3d UnilateralContact::restCorners(int triangle) const noexcept {

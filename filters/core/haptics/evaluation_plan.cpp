@@ -142,7 +142,8 @@ class Planner {
     TouchedNodes sum;
     double parts = 0;
     const auto add = [&](double count, double radius, bool rigid) {
-      const TouchedNodes one = touchedNodes(radius, first_, depth(first_), margin, rigid);
+      const TouchedNodes one =
+          touchedNodes(radius, first_, depth(first_), margin, rigid, count > 1);
       sum.loaded += count * one.loaded;
       sum.watched += count * one.watched;
       sum.rim += count * one.rim;

@@ -84,10 +84,11 @@ TouchedNodes touchedTriangles(double radius, const BodySizes& body, double depth
 }  // namespace
 
 TouchedNodes touchedNodes(double radius, const BodySizes& body, double depth, double margin,
-                          bool rigid) {
+                          bool rigid, bool isPart) {
+  const double limit = isPart ? UnilateralContact::kLargeEdgeOfMany : UnilateralContact::kLargeEdge;
   const TouchedNodes fine = touchedVertices(radius, body, depth, margin, rigid);
-  const auto large = std::upper_bound(body.longestEdges.begin(), body.longestEdges.end(),
-                                      UnilateralContact::kLargeEdge * radius);
+  const auto large =
+      std::upper_bound(body.longestEdges.begin(), body.longestEdges.end(), limit * radius);
   if (!rigid || large == body.longestEdges.end()) return fine;
   const TouchedNodes coarse = touchedTriangles(radius, body, depth, margin, fine);
   const double share = static_cast<double>(body.longestEdges.end() - large) /

@@ -21,7 +21,8 @@ struct TouchedNodes {
 /// @param depth   m, of the tool in the surface.
 /// @param margin  m, UnilateralContactSettings::margin.
 /// @param rigid   whether it is a tool and not an elastic body.
+/// @param isPart  whether of several of one tool.
 TouchedNodes touchedNodes(double radius, const BodySizes& body, double depth, double margin,
-                          bool rigid);
+                          bool rigid, bool isPart = false);
 
 }  // namespace palpate
