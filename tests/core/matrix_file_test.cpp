@@ -11,11 +11,11 @@
 
 #include "imported/harwell_boeing.h"
 #include "imported/imported_greens_functions.h"
-#include "imported/text_lines.h"
-#include "imported/units.h"
 #include "support/given_bodies.h"
 #include "support/refusals.h"
 #include "support/temporary_path.h"
+#include "text_lines.h"
+#include "units.h"
 
 namespace palpate::test {
 namespace {
@@ -305,7 +305,7 @@ TEST(MatrixFile, ChangedBytesAreReadOrRefused) {
     for (int trial = 0; trial < 3000; ++trial) isRead(changed(text, trial, random));
   const auto nodes = [](const std::string& path) { readNodeFile(path); };
   const auto mapping = [](const std::string& path) {
-    imported::readMapping(imported::readBytes(path), 3, path);
+    imported::readMapping(readBytes(path), 3, path);
   };
   for (int trial = 0; trial < 3000; ++trial) {
     isReadBy(mapping, changed(kMapping, trial, random));
@@ -316,7 +316,6 @@ TEST(MatrixFile, ChangedBytesAreReadOrRefused) {
 }
 
 TEST(MatrixFile, NumbersInAnyNotationAndLocale) {
-  using imported::numberOf;
   EXPECT_EQ(numberOf("+1.5"), 1.5);
   EXPECT_EQ(numberOf("-1.5D+02"), -150);
   EXPECT_EQ(numberOf("1e-400"), 0);

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "imported/text_lines.h"
+#include "text_lines.h"
 
 namespace palpate::imported {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "imported/text_lines.h"
+#include "text_lines.h"
 
 namespace palpate::imported {
 namespace {

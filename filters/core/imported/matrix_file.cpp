@@ -11,7 +11,7 @@
 #include "imported/harwell_boeing.h"
 #include "imported/matrix_market.h"
 #include "imported/numpy_file.h"
-#include "imported/text_lines.h"
+#include "text_lines.h"
 
 namespace palpate {
 namespace {

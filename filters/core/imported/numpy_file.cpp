@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "imported/text_lines.h"
 #include "sentence.h"
+#include "text_lines.h"
 
 namespace palpate::imported {
 namespace {

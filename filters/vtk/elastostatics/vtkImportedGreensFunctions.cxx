@@ -7,7 +7,7 @@
 #include "conversion.h"
 #include "imported/imported_greens_functions.h"
 #include "imported/matrix_file.h"
-#include "imported/units.h"
+#include "units.h"
 #include "model_arrays.h"
 
 #include "vtkDoubleArray.h"

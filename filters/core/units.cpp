@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "imported/units.h"
+#include "units.h"
 
 #include <initializer_list>
 

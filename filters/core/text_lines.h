@@ -11,7 +11,7 @@
 
 #include "sentence.h"
 
-namespace palpate::imported {
+namespace palpate {
 
 /// All of an ordinary file.
 /// @throws std::runtime_error that begins with `path` if it is none, is empty or cannot be read.
@@ -66,4 +66,4 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
-}  // namespace palpate::imported
+}  // namespace palpate

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "imported/text_lines.h"
+#include "text_lines.h"
 
 #include <cerrno>
 #include <charconv>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace palpate::imported {
+namespace palpate {
 namespace {
 
 bool isBlank(char c) {
@@ -139,4 +139,4 @@ std::int64_t TextLines::wholeNumber(std::string_view word, std::int64_t least,
   return static_cast<std::int64_t>(value);
 }
 
-}  // namespace palpate::imported
+}  // namespace palpate
