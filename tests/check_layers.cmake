@@ -32,9 +32,9 @@ set(include "^[ \t]*#[ \t]*include[ \t]*[<\"]")
 forbid("core includes VTK" FILES ${all_core} PATTERN "${include}vtk")
 forbid("core includes what lies above it" FILES ${all_core} PATTERN "${include}(apps|vtk|picture)/")
 forbid("core prints" FILES ${all_core} PATTERN "std::(cout|cerr|clog)|[^a-z]f?printf[ ]*\\(")
-# The rooms that make Green's functions; identification is to be one.
+# The rooms that make Green's functions.
 set(producers bem fem halfspace identification imported shell)
-foreach(room bem fem halfspace imported shell)
+foreach(room IN LISTS producers)
   set(others ${producers})
   list(REMOVE_ITEM others ${room})
   list(JOIN others "|" others)
@@ -71,6 +71,8 @@ forbid("hidapi outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/*
   PATTERN "${include}hidapi" EXCEPT "filters/core/haptics/hidapi_bus[.]cpp$")
 forbid("MUMPS outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}.?mumps" EXCEPT "filters/core/linear_algebra/sparse_factorization[.]cpp$")
+forbid("Ceres outside its one source" FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
+  PATTERN "${include}(ceres|glog)" EXCEPT "filters/core/identification/ceres_least_squares[.]cpp$")
 forbid("JSON outside the header that reads it"
   FILES ${all_core} ${SOURCE}/filters/vtk/* ${SOURCE}/apps/*
   PATTERN "${include}nlohmann" EXCEPT "filters/core/haptics/json_reader[.]h$")

@@ -10,7 +10,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libvtk9-dev vtk9 python3-vtk9 python3-numpy python3-html5lib python3-meshio python3-scipy
   libcgal-dev libopenmesh-dev libopenblas-dev libeigen3-dev libxsimd-dev libcli11-dev
-  libmumps-seq-dev libhidapi-dev nlohmann-json3-dev libudev-dev umockdev libumockdev-dev
+  libmumps-seq-dev libceres-dev libhidapi-dev nlohmann-json3-dev libudev-dev umockdev libumockdev-dev
   libgtest-dev libbenchmark-dev libx11-dev xvfb libgl1-mesa-dri
 )
 

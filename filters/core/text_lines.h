@@ -44,6 +44,8 @@ class TextLines {
   bool nextWith(char comment);
 
   std::string_view line() const { return line_; }
+  /// From 1.
+  std::size_t lineNumber() const { return number_; }
   /// Bytes from the current line on, itself included.
   std::size_t bytesLeft() const { return text_.size() - start_; }
 

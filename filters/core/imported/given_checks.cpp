@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "model/plausible_modulus.h"
 #include "sentence.h"
 
 namespace palpate::imported {
@@ -137,8 +138,7 @@ double apparentModulus(const Eigen::MatrixXd& compliance, double size) {
 }
 
 void warnOfUnits(double modulus, std::vector<std::string>& warnings) {
-  constexpr double softest = 1, stiffest = 1e13;
-  if (modulus >= softest && modulus <= stiffest) return;
+  if (isPlausibleModulus(modulus)) return;
   warnings.push_back(sentence("a body of this size and compliance has a Young's modulus of about ",
                               modulus,
                               " Pa, which no material has: state the units of the matrix"));

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/least_squares.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/SVD>
+#include <stdexcept>
+#include <vector>
+
+#include "sentence.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kFullRank = 1e-9;  // of singular values, columns scaled to one
+constexpr double kLargestGradient = 1e-3;
+constexpr double kAtBound = 1e-9;
+
+/// Beside the library that this is compiled into, or wherever libraries are looked for.
+LeastSquaresFunction* load() {
+  std::string folder;
+  Dl_info here;
+  if (dladdr(reinterpret_cast<const void*>(&kLeastSquaresLibrary), &here) && here.dli_fname)
+    folder = std::string(here.dli_fname);
+  folder = folder.substr(0, folder.rfind('/') + 1);
+  void* library = nullptr;
+  for (const std::string& place : {folder, folder + "../lib/", std::string()}) {
+    library = dlopen((place + kLeastSquaresLibrary).c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library) break;
+  }
+  void* function = library ? dlsym(library, kLeastSquaresFunction) : nullptr;
+  if (!function)
+    throw std::runtime_error(
+        std::string("identification needs the library Ceres (Debian: libceres3): ") + dlerror());
+  return reinterpret_cast<LeastSquaresFunction*>(function);
+}
+
+/// What of the solution can be told from its residuals and their derivatives.
+void inspect(const LeastSquaresProblem& problem, LeastSquaresSolution& solution) {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+  problem.evaluate(solution.parameters, residuals, &jacobian);
+  if (!residuals.allFinite() || !jacobian.allFinite() || !std::isfinite(solution.cost))
+    throw std::runtime_error("the identification came to a place without finite residuals");
+  const Eigen::VectorXd& x = solution.parameters;
+  std::vector<int> inside;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double width = std::min(1.0, problem.upper[i] - problem.lower[i]);
+    if (x[i] > problem.lower[i] + kAtBound * width && x[i] < problem.upper[i] - kAtBound * width)
+      inside.push_back(static_cast<int>(i));
+  }
+  const int count = static_cast<int>(inside.size());
+  solution.weakest.setZero(x.size());
+  if (count == 0) return;
+  const Eigen::MatrixXd moving = jacobian(Eigen::all, inside);
+  const Eigen::VectorXd sizes = moving.colwise().norm();
+  Eigen::MatrixXd scaled = moving;
+  for (int i = 0; i < count; ++i)
+    if (sizes[i] > 0) scaled.col(i) /= sizes[i];
+  const Eigen::BDCSVD<Eigen::MatrixXd> parts(scaled, Eigen::ComputeThinV);
+  const Eigen::VectorXd& values = parts.singularValues();
+  const Eigen::VectorXd least = parts.matrixV().col(count - 1);
+  for (int i = 0; i < count; ++i) solution.weakest[inside[i]] = least[i];
+  solution.condition = values[count - 1] > 0 ? values[0] / values[count - 1] : INFINITY;
+  if (problem.loss == RobustLoss::None)
+    solution.gradient =
+        (scaled.transpose() * residuals).cwiseAbs().maxCoeff() / (1 + residuals.norm());
+  if (!(values[count - 1] > kFullRank * values[0])) solution.covariance.resize(0, 0);
+}
+
+}  // namespace
+
+LeastSquaresSolution solveLeastSquares(const LeastSquaresProblem& problem) {
+  static LeastSquaresFunction* const solve = load();
+  LeastSquaresSolution solution;
+  std::string failure;
+  solve(problem, solution, failure);
+  if (!failure.empty()) throw std::runtime_error("the identification did not converge: " + failure);
+  inspect(problem, solution);
+  if (solution.gradient > kLargestGradient)
+    throw std::runtime_error(sentence("the identification did not converge: the slope left is ",
+                                      shortly(solution.gradient), " of the residuals"));
+  return solution;
+}
+
+}  // namespace palpate

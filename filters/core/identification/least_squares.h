@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "sentence.h"
+
+namespace palpate {
+
+/// How residuals count that are too large to be noise.
+enum class RobustLoss {
+  None,    ///< squared
+  Huber,   ///< linearly
+  Cauchy,  ///< by the logarithm of their square
+  Tukey,   ///< not at all
+};
+
+/// @throws std::invalid_argument for a name other than none, huber, cauchy, tukey.
+inline RobustLoss robustLossNamed(const std::string& name) {
+  if (name == "none") return RobustLoss::None;
+  if (name == "huber") return RobustLoss::Huber;
+  if (name == "cauchy") return RobustLoss::Cauchy;
+  if (name == "tukey") return RobustLoss::Tukey;
+  refuse("there is no loss '", name, "': choose one of none, huber, cauchy, tukey");
+}
+
+/// Parameters within bounds whose residuals, in groups of three and over their standard deviation,
+/// shall be small.
+struct LeastSquaresProblem {
+  Eigen::VectorXd start, lower, upper;  ///< #parameters; bounds may be infinite
+  int groups = 0;                       ///< residuals over 3
+  RobustLoss loss = RobustLoss::None;
+  double scale = 1;  ///< the norm of a group up to which the loss is about quadratic
+
+  /// @param residuals  3 #groups, set.
+  /// @param jacobian   3 #groups by #parameters, set if not null.
+  std::function<void(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals,
+                     Eigen::MatrixXd* jacobian)>
+      evaluate;
+  std::function<bool()> goOn;  ///< asked after each step; false ends it with Aborted
+};
+
+struct LeastSquaresSolution {
+  Eigen::VectorXd parameters;
+  /// Inverse of the loss-corrected J^T J; zero in rows and columns of parameters at a bound. Empty
+  /// where J has not full rank (weakest).
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd weakest;  ///< the combination, of norm 1, that residuals see least
+  double condition = 0;     ///< largest over smallest singular value of J
+  double cost = 0;          ///< half the sum of losses
+  double gradient = 0;      ///< of what can move, columns of J at length 1, over 1 + |residuals|
+  int iterations = 0;
+};
+
+/// Minimises by Ceres: Levenberg and Marquardt's steps within the bounds.
+/// @throws Aborted; std::runtime_error if it does not converge, with the reason; what `evaluate`
+///         throws; std::runtime_error if Palpate was built without Ceres.
+LeastSquaresSolution solveLeastSquares(const LeastSquaresProblem& problem);
+
+/// What the library with Ceres has, under the name kLeastSquaresFunction.
+using LeastSquaresFunction = void(const LeastSquaresProblem&, LeastSquaresSolution&,
+                                  std::string& failure);
+constexpr const char* kLeastSquaresLibrary = "libpalpate_ceres.so";
+constexpr const char* kLeastSquaresFunction = "palpateSolveLeastSquares";
+
+}  // namespace palpate

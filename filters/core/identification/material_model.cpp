@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/material_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sentence.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;
+constexpr double kSoftestSupport = 10;  // E / k over the size of the body
+constexpr double kSomeSupport = 1e-3;
+constexpr int kMostRegions = 6;
+
+bool isAt(double value, double bound, double width) {
+  return std::abs(value - bound) <= 1e-9 * std::min(1.0, width);
+}
+
+}  // namespace
+
+void boxOf(const MaterialUnknowns& unknowns, Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+  if (unknowns.regions < 1 || unknowns.regions > kMostRegions)
+    refuse("Young's moduli of 1 to ", kMostRegions, " regions are identified, not of ",
+           unknowns.regions);
+  if (!(unknowns.largestRatio > 1 && unknowns.largestRatio <= 1e4))
+    refuse("the largest ratio of Young's moduli must be above 1 and at most 1e4, not ",
+           unknowns.largestRatio);
+  if (!unknowns.poisson) Material(1, unknowns.poissonRatio);  // checks it
+  if (unknowns.poisson && !(unknowns.poissonLower > -1 && unknowns.poissonUpper < 0.5 &&
+                            unknowns.poissonLower < unknowns.poissonUpper))
+    refuse("Poisson's ratio is looked for within -1 < lower < upper < 0.5, not from ",
+           unknowns.poissonLower, " to ", unknowns.poissonUpper);
+  const int poisson = unknowns.poisson, ratios = unknowns.regions - 1;
+  lower.setConstant(poisson + ratios, -std::log(unknowns.largestRatio));
+  upper = -lower;
+  if (!poisson) return;
+  lower[0] = unknowns.poissonLower;
+  upper[0] = unknowns.poissonUpper;
+}
+
+std::vector<Material> materialsAt(const MaterialUnknowns& unknowns, const Eigen::VectorXd& place) {
+  const double poisson = unknowns.poisson ? place[0] : unknowns.poissonRatio;
+  std::vector<Material> materials{Material(1, poisson)};
+  for (int r = 1; r < unknowns.regions; ++r)
+    materials.emplace_back(std::exp(place[unknowns.poisson + r - 1]), poisson);
+  return materials;
+}
+
+MaterialModel::MaterialModel(const MaterialUnknowns& unknowns, double size,
+                             ResponseInterpolation response, std::vector<int> probeOf)
+    : unknowns_(unknowns),
+      size_(size),
+      response_(std::move(response)),
+      probeOf_(std::move(probeOf)) {
+  const int coordinates = response_.coordinateCount();
+  lower_.setConstant(1 + coordinates + unknowns.support, -INFINITY);
+  upper_ = -lower_;
+  middle_.setZero(lower_.size());
+  lower_.segment(1, coordinates) = response_.lower();
+  upper_.segment(1, coordinates) = response_.upper();
+  middle_.segment(1, coordinates) = (response_.lower() + response_.upper()) / 2;
+  if (!unknowns.support) return;
+  lower_[support()] = 0;
+  upper_[support()] = kSoftestSupport;
+  middle_[support()] = kSomeSupport;
+}
+
+int MaterialModel::regionOf(int unknown) const {
+  if (unknown == 0) return 0;
+  const int region = unknown - unknowns_.poisson;
+  return region >= 1 && region < unknowns_.regions ? region : -1;
+}
+
+Eigen::VectorXd MaterialModel::displacements(const Eigen::VectorXd& unknowns,
+                                             const Eigen::Matrix3Xd& forces,
+                                             Eigen::MatrixXd* jacobian) const {
+  const int coordinates = response_.coordinateCount(), markers = static_cast<int>(probeOf_.size());
+  const double softness = std::exp(-unknowns[0]);
+  const ResponseInterpolation::Value value = response_.at(
+      unknowns.segment(1, coordinates), foundationLength(unknowns), jacobian != nullptr);
+  const auto times = [&](const Eigen::MatrixXd& rows, auto&& out) {
+    for (int i = 0; i < markers; ++i)
+      out.template segment<3>(3 * i) =
+          softness * rows.middleRows<3>(3 * i) * forces.col(probeOf_[i]);
+  };
+  Eigen::VectorXd result(3 * markers);
+  times(value.rows, result);
+  if (!jacobian) return result;
+  jacobian->resize(3 * markers, count());
+  jacobian->col(0) = -result;
+  for (int c = 0; c < coordinates; ++c) times(value.byCoordinate[c], jacobian->col(1 + c));
+  if (support() < 0) return result;
+  times(value.byFoundation, jacobian->col(support()));
+  jacobian->col(support()) *= size_;
+  return result;
+}
+
+std::vector<Material> MaterialModel::materials(const Eigen::VectorXd& unknowns) const {
+  std::vector<Material> materials;
+  for (const Material& of :
+       materialsAt(unknowns_, unknowns.segment(1, response_.coordinateCount())))
+    materials.emplace_back(of.youngsModulus() * std::exp(unknowns[0]), of.poissonRatio());
+  return materials;
+}
+
+double MaterialModel::foundationLength(const Eigen::VectorXd& unknowns) const {
+  return support() < 0 ? 0 : std::max(0.0, unknowns[support()]) * size_;
+}
+
+std::vector<IdentifiedParameter> MaterialModel::parameters(
+    const Eigen::VectorXd& unknowns, const Eigen::MatrixXd& covariance) const {
+  const std::vector<Material> all = materials(unknowns);
+  std::vector<IdentifiedParameter> parameters;
+  for (int i = 0; i < count(); ++i) {
+    IdentifiedParameter p;
+    p.isAtBound = isAt(unknowns[i], lower_[i], upper_[i] - lower_[i]) ||
+                  isAt(unknowns[i], upper_[i], upper_[i] - lower_[i]);
+    const int region = regionOf(i);
+    if (region >= 0) {
+      p.name = all.size() == 1 ? "Young's modulus" : sentence("Young's modulus of region ", region);
+      p.unit = "Pa";
+      p.value = all[region].youngsModulus();
+      // Of ln E_r = ln E + ln E_r / E.
+      const double variance =
+          i == 0 ? covariance(0, 0) : covariance(0, 0) + 2 * covariance(0, i) + covariance(i, i);
+      const double relative = std::sqrt(std::max(0.0, variance));
+      p.deviation = p.value * relative;
+      p.lower = p.value * std::exp(-kNormal95 * relative);
+      p.upper = p.value * std::exp(kNormal95 * relative);
+    } else {
+      const double unit = i == support() ? size_ : 1;
+      p.name = i == support() ? "support's yielding length E/k" : "Poisson's ratio";
+      p.unit = i == support() ? "m" : "";
+      p.value = unit * unknowns[i];
+      p.deviation = unit * std::sqrt(std::max(0.0, covariance(i, i)));
+      p.lower = std::max(unit * lower_[i], p.value - kNormal95 * p.deviation);
+      p.upper = std::min(unit * upper_[i], p.value + kNormal95 * p.deviation);
+    }
+    parameters.push_back(p);
+  }
+  return parameters;
+}
+
+Eigen::VectorXd MaterialModel::unknownsOf(const Eigen::VectorXd& parameters) const {
+  if (parameters.size() != count())
+    refuse("there are ", count(), " unknowns, not ", parameters.size());
+  Eigen::VectorXd unknowns = parameters;
+  for (int i = count() - 1; i >= 0; --i)
+    if (regionOf(i) > 0)
+      unknowns[i] = std::log(parameters[i] / parameters[0]);
+    else if (regionOf(i) == 0)
+      unknowns[i] = std::log(parameters[i]);
+    else if (i == support())
+      unknowns[i] = parameters[i] / size_;
+  return unknowns;
+}
+
+}  // namespace palpate

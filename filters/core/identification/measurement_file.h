@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <string>
+
+#include "identification/measurements.h"
+
+namespace palpate {
+
+/// Units that a table is in.
+struct MeasurementUnits {
+  double length = 1;  ///< m
+  double force = 1;   ///< N
+};
+
+/// Reads a table of measurements: a line of names, then a line for each displacement, its words
+/// between `,` or `;` or blanks; lines that begin with # are passed over.
+///
+/// | name                                       | what                                          |
+/// |--------------------------------------------|-----------------------------------------------|
+/// | probe                                      | which probe, any word                         |
+/// | contact_vertex, or contact_x, _y, _z       | where it presses, at rest                     |
+/// | radius                                     | of the mask of its force; 0 if there is none  |
+/// | force_x, force_y, force_z                  | on the body                                   |
+/// | vertex, or x, y, z                         | the marker's place at rest                    |
+/// | u_x, u_y, u_z                              | its displacement; empty where not measured    |
+/// | sd, or sd_x, sd_y, sd_z                    | standard deviation of these; optional         |
+///
+/// What belongs to the probe is the same in all of its lines, or empty in all but the first.
+/// Lengths are in the unit of length, forces in that of force. Between blanks no word can be empty.
+/// @throws std::invalid_argument that begins with the file and the line; std::runtime_error that
+///         begins with the file if it cannot be read; as requireSound.
+Measurements readMeasurementFile(const std::string& path, const MeasurementUnits& units = {});
+
+/// Writes such a table, in metres and newtons, so that it reads back bit by bit.
+/// @throws std::runtime_error that begins with `path` if it cannot be written.
+void writeMeasurementFile(const std::string& path, const Measurements& measurements);
+
+}  // namespace palpate

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <memory>
+#include <vector>
+
+#include "identification/least_squares.h"
+#include "mesh/surface_locator.h"
+#include "sentence.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kLeastPlaces = 6;
+constexpr double kDetermined = 3e-2;  // of singular values, rotations times the places' extent
+constexpr double kRobustScale = 2.5;
+constexpr int kScalings = 6;
+
+/// A rotation by a vector: its direction and angle.
+Eigen::Matrix3d turnBy(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  return angle > 0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
+                   : Eigen::Matrix3d::Identity().eval();
+}
+
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+Eigen::Matrix3Xd placesOf(const Measurements& measurements) {
+  std::vector<Eigen::Vector3d> places;
+  const auto add = [&](const RestPlace& place) {
+    if (place.vertex < 0) places.push_back(place.point);
+  };
+  for (const Probe& probe : measurements.probes) add(probe.contact);
+  for (const MeasuredDisplacement& measured : measurements.displacements) add(measured.marker);
+  Eigen::Matrix3Xd matrix(3, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) matrix.col(i) = places[i];
+  return matrix;
+}
+
+/// Distances from the surface under motions about the places' centre, from a pose on.
+class Alignment {
+ public:
+  Alignment(const SurfaceMesh& mesh, const Eigen::Matrix3Xd& places)
+      : mesh_(mesh),
+        locator_(std::make_shared<SurfaceMesh>(mesh.points(), mesh.triangles(), mesh.rims())),
+        centre_(places.rowwise().mean()),
+        offsets_(places.colwise() - centre_),
+        extent_(std::sqrt(offsets_.colwise().squaredNorm().mean())) {}
+
+  const Eigen::Vector3d& centre() const { return centre_; }
+  double extent() const { return extent_; }
+
+  /// How far motions take the places off the surface, were it smooth: of facets alone, the sides
+  /// of a ball would tell how it is turned. A row a place.
+  Eigen::MatrixXd sensitivity(const Eigen::VectorXd& motion) const {
+    Eigen::MatrixXd rows(offsets_.cols(), 6);
+    for (Eigen::Index i = 0; i < offsets_.cols(); ++i) {
+      const Eigen::Vector3d arm = turnBy(motion.head<3>() / extent_) * offsets_.col(i);
+      const SurfacePoint nearest = locator_.nearest(centre_ + arm + motion.tail<3>());
+      const Eigen::Vector3d normal =
+          (mesh_.vertexNormals()(Eigen::all, mesh_.triangles().col(nearest.triangle)) *
+           nearest.barycentric)
+              .normalized();
+      rows.row(i) << (arm.cross(normal) / extent_).transpose(), normal.transpose();
+    }
+    return rows;
+  }
+
+  /// Distance along the normal and its derivatives by turns times extent, and by shifts; a group a
+  /// place. All distances are over `scale`.
+  void evaluate(const Eigen::VectorXd& motion, double scale, Eigen::VectorXd& residuals,
+                Eigen::MatrixXd* jacobian) const {
+    const Eigen::Index count = offsets_.cols();
+    residuals.setZero(3 * count);
+    if (jacobian) jacobian->setZero(3 * count, 6);
+    const Eigen::Vector3d turn = motion.head<3>() / extent_;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Vector3d arm = turnBy(turn) * offsets_.col(i),
+                            place = centre_ + arm + motion.tail<3>();
+      const SurfacePoint nearest = locator_.nearest(place);
+      const Eigen::Vector3d gap = place - placeOf(mesh_, nearest);
+      Eigen::Vector3d normal = mesh_.triangleNormals().col(nearest.triangle);
+      if (gap.norm() > 1e-9 * extent_) normal = gap.normalized() * (gap.dot(normal) < 0 ? -1 : 1);
+      residuals[3 * i] = gap.dot(normal) / scale;
+      if (!jacobian) continue;
+      jacobian->block<1, 3>(3 * i, 0) =
+          -normal.transpose() * crossMatrix(arm) * leftJacobian(turn) / (extent_ * scale);
+      jacobian->block<1, 3>(3 * i, 3) = normal.transpose() / scale;
+    }
+  }
+
+ private:
+  /// Of the rotation by a vector: the turn that a change of the vector adds, to third order.
+  static Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& turn) {
+    const Eigen::Matrix3d cross = crossMatrix(turn);
+    const double angle = turn.norm();
+    const double first = angle > 1e-4 ? (1 - std::cos(angle)) / (angle * angle) : 0.5,
+                 second = angle > 1e-4 ? (angle - std::sin(angle)) / std::pow(angle, 3) : 1.0 / 6;
+    return Eigen::Matrix3d::Identity() + first * cross + second * cross * cross;
+  }
+
+  const SurfaceMesh& mesh_;
+  SurfaceLocator locator_;
+  Eigen::Vector3d centre_;
+  Eigen::Matrix3Xd offsets_;
+  double extent_;
+};
+
+double medianScale(const Eigen::VectorXd& residuals, double least) {
+  std::vector<double> sizes;
+  for (Eigen::Index i = 0; i < residuals.size(); i += 3) sizes.push_back(std::abs(residuals[i]));
+  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+  return std::max(1.4826 * sizes[sizes.size() / 2], least);
+}
+
+void requireDetermined(const Eigen::MatrixXd& sensitivity) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(sensitivity, Eigen::ComputeThinV);
+  const Eigen::VectorXd values = parts.singularValues();
+  if (values.size() == 6 && values[5] >= kDetermined * values[0]) return;
+  const Eigen::VectorXd free = parts.matrixV().col(5);
+  const bool isTurn = free.head<3>().norm() > free.tail<3>().norm();
+  const Eigen::Vector3d along = (isTurn ? free.head<3>() : free.tail<3>()).normalized();
+  refuse("the places of markers and contacts do not tell the ",
+         isTurn ? "rotation about" : "translation along", " (", shortly(along.x()), ", ",
+         shortly(along.y()), ", ", shortly(along.z()),
+         "): on this surface that moves none off it; spread the markers over other parts, or give "
+         "the measurements in the surface's frame");
+}
+
+}  // namespace
+
+Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& measurements,
+                               const std::function<bool()>& goOn) {
+  const Eigen::Matrix3Xd places = placesOf(measurements);
+  if (places.cols() < kLeastPlaces)
+    refuse("a registration needs at least ", kLeastPlaces,
+           " places that are given by their coordinates, not ", places.cols());
+  const Alignment alignment(mesh, places);
+  if (!(alignment.extent() > 0)) refuse("all markers and contacts are at one place");
+  const double rounding = 1e-9 * mesh.diagonal();
+  LeastSquaresProblem problem;
+  problem.start.setZero(6);
+  problem.lower.setConstant(6, -INFINITY);
+  problem.upper = -problem.lower;
+  problem.groups = static_cast<int>(places.cols());
+  problem.goOn = goOn;
+  problem.loss = RobustLoss::Cauchy;
+  problem.scale = kRobustScale;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd covariance;
+  double scale = 1;
+  for (int i = 0; i < kScalings; ++i) {
+    alignment.evaluate(problem.start, 1, residuals, nullptr);
+    requireDetermined(alignment.sensitivity(problem.start));
+    scale = medianScale(residuals, rounding);
+    problem.evaluate = [&](const Eigen::VectorXd& motion, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+      alignment.evaluate(motion, scale, r, j);
+    };
+    const LeastSquaresSolution solution = solveLeastSquares(problem);
+    problem.start = solution.parameters;
+    covariance = solution.covariance;
+  }
+  alignment.evaluate(problem.start, 1, residuals, nullptr);
+  Registration result;
+  result.rotation = turnBy(problem.start.head<3>() / alignment.extent());
+  result.translation =
+      alignment.centre() + problem.start.tail<3>() - result.rotation * alignment.centre();
+  if (covariance.size() > 0) {
+    result.rotationDeviation = covariance.diagonal().head<3>().cwiseSqrt() / alignment.extent();
+    result.translationDeviation = covariance.diagonal().tail<3>().cwiseSqrt();
+  }
+  result.distance = residuals.norm() / std::sqrt(double(places.cols()));
+  return result;
+}
+
+Measurements registered(const Measurements& measurements, const Registration& registration) {
+  Measurements result = measurements;
+  const auto move = [&](RestPlace& place) {
+    if (place.vertex < 0)
+      place.point = registration.rotation * place.point + registration.translation;
+  };
+  for (Probe& probe : result.probes) {
+    move(probe.contact);
+    probe.force = registration.rotation * probe.force;
+  }
+  for (MeasuredDisplacement& measured : result.displacements) {
+    move(measured.marker);
+    if (measured.displacement.array().isNaN().any())
+      refuse(measurements.nameOf(measured),
+             ": a displacement of which components are missing cannot be turned into the surface's "
+             "frame: leave the row out");
+    measured.displacement = registration.rotation * measured.displacement;
+    if (measured.deviation.maxCoeff() > measured.deviation.minCoeff())
+      measured.deviation.setConstant(std::sqrt(measured.deviation.squaredNorm() / 3));
+  }
+  return result;
+}
+
+}  // namespace palpate
