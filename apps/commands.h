@@ -19,6 +19,8 @@ void addPrecompute(CLI::App& program);
 void addImport(CLI::App& program);
 void addFoundation(CLI::App& program);
 void addGravity(CLI::App& program);
+void addIdentify(CLI::App& program);
+void addMeasure(CLI::App& program);
 void addPress(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);

@@ -77,8 +77,9 @@ int main(int argc, char** argv) {
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
   for (const auto add :
-       {addInfo, addRepair, addRefine, addRemesh, addPrecompute, addImport, addFoundation, addPress,
-        addGravity, addStiffness, addArtifacts, addAccuracy, addDevices, addTouch, addGrasp})
+       {addInfo, addRepair, addRefine, addRemesh, addPrecompute, addImport, addMeasure, addIdentify,
+        addFoundation, addPress, addGravity, addStiffness, addArtifacts, addAccuracy, addDevices,
+        addTouch, addGrasp})
     add(program);
   catchInterrupts();
   try {

@@ -21,6 +21,7 @@ from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
+from .identification import identify, measurement_table, simulate_measurements
 from .imports import import_compliance, import_stiffness
 from .loads import foundation, gravity
 from .precomputation import precompute
@@ -38,8 +39,10 @@ __all__ = [
     "gravity",
     "greens_function_nodes",
     "greens_functions",
+    "identify",
     "import_compliance",
     "import_stiffness",
+    "measurement_table",
     "precompute",
     "press",
     "probe",
@@ -48,6 +51,7 @@ __all__ = [
     "refine",
     "remesh",
     "repair",
+    "simulate_measurements",
     "solve",
     "stiffness",
     "stiffness_artifacts",

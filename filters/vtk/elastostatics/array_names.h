@@ -148,6 +148,46 @@ constexpr const char* SmoothingLength = "SmoothingLength";         // m
 constexpr const char* StiffnessChangeMeasures =
   "StiffnessChangeMeasures"; // median, variation, 95th percentile of its size, vertices compared
 
+// Field data: a table of measurements, the third input of vtkGreensFunctionIdentification and the output
+// of vtkRigSimulation. A tuple a displacement:
+constexpr const char* MeasurementProbe = "MeasurementProbe";   // int, which probe
+constexpr const char* MeasurementVertex = "MeasurementVertex"; // id of the marker, or -1 for that below
+constexpr const char* MeasurementPoint = "MeasurementPoint";   // 3, of the marker at rest, m
+constexpr const char* MeasuredDisplacement = "MeasuredDisplacement"; // 3, m, NaN where not measured
+constexpr const char* MeasurementDeviation = "MeasurementDeviation"; // 1 or 3, standard, m, optional
+// A tuple a probe:
+constexpr const char* ProbeNames = "ProbeNames";   // strings, optional
+constexpr const char* ProbeVertex = "ProbeVertex"; // id of the contact, or -1 for that below
+constexpr const char* ProbePoint = "ProbePoint";   // 3, of the contact at rest, m
+constexpr const char* ProbeRadius = "ProbeRadius"; // of the mask of its force, m, optional
+constexpr const char* ProbeForce = "ProbeForce";   // 3, on the body, N
+
+// Field data of vtkGreensFunctionIdentification, besides the table in the frame of the surface.
+constexpr const char* MeasurementResidual = "MeasurementResidual"; // 3, measured less predicted, m
+constexpr const char* MeasurementOutlier = "MeasurementOutlier";   // uint8, 1 left out
+constexpr const char* ProbeResidual = "ProbeResidual"; // root mean square of a component, m
+constexpr const char* ProbeRelativeResidual = "ProbeRelativeResidual"; // over the displacements
+constexpr const char* ProbeOutliers = "ProbeOutliers";                 // how many, a tuple a probe
+constexpr const char* IdentifiedNames = "IdentifiedNames"; // strings: what was identified
+constexpr const char* IdentifiedUnits = "IdentifiedUnits"; // strings
+/// Value, standard deviation (0 at a bound), bounds of the interval of 95 %; a tuple a parameter.
+constexpr const char* IdentifiedParameters = "IdentifiedParameters";
+constexpr const char* IdentifiedCorrelations = "IdentifiedCorrelations"; // a row a tuple
+constexpr const char* YoungsModulusDeviation = "YoungsModulusDeviation"; // standard, Pa
+constexpr const char* PoissonRatioDeviation = "PoissonRatioDeviation";   // 0 where it was known
+constexpr const char* SupportYieldLength = "SupportYieldLength"; // E / k of an elastic foundation, m
+constexpr const char* MeasurementNoise = "MeasurementNoise";     // standard deviation, m
+constexpr const char* MeasurementMisfit = "MeasurementMisfit"; // residuals over deviations given, or -1
+constexpr const char* HoldOutError = "HoldOutError"; // of probes left out, relative, or -1
+constexpr const char* ResponseInterpolationError = "ResponseInterpolationError"; // relative
+constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row by row
+constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
+constexpr const char* RegistrationDeviation = "RegistrationDeviation"; // 6: about x, y, z (rad), along (m)
+constexpr const char* RegistrationDistance = "RegistrationDistance"; // places from the surface, m
+
+// Cell data of a volume mesh of several materials, of vtkGreensFunctionIdentification.
+constexpr const char* MaterialRegion = "MaterialRegion"; // int from 0
+
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
@@ -163,6 +203,14 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,
   StageNames, Warnings };
+/// Field data of one identification.
+constexpr const char* IdentificationResults[] = { MeasurementProbe, MeasurementVertex, MeasurementPoint,
+  MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint, ProbeRadius, ProbeForce,
+  MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual, ProbeOutliers,
+  IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations, YoungsModulusDeviation,
+  PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit, HoldOutError,
+  ResponseInterpolationError, RegistrationRotation, RegistrationTranslation, RegistrationDeviation,
+  RegistrationDistance };
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
   ContactRotation, ContactCondition, LargestDisplacementGradient, ContactPoint, ElasticContactPoint,

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <read_files.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkGreensFunctionIdentification.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkReferenceBoundaryConditions.h>
+#include <vtkSolidBoundary.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "commands.h"
+#include "support_options.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Options {
+  std::string input, output, measurements, method = "bem", loss = "cauchy";
+  std::string lengthUnit = "m", forceUnit = "N";
+  SupportOptions support;
+  double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4, placeTolerance = 0.02;
+  std::vector<double> poissonRange;
+  bool yieldingSupport = false, isRegistered = false, noEstimate = false;
+  int folds = 5, threads = 0;
+};
+
+void addUnknowns(CLI::App& command, Options& o) {
+  const char* const group = "Unknowns, besides Young's modulus";
+  CLI::Option* poisson = command.add_option("--poisson", o.poisson,
+                                            "Poisson's ratio, if it is known; else identified");
+  poisson->check(CLI::Range(-0.999999, 0.5))->group(group);
+  command
+      .add_option("--poisson-range", o.poissonRange,
+                  "Where it is looked for; 0 to 0.499, for fem 0 to 0.449")
+      ->expected(2)
+      ->excludes(poisson)
+      ->group(group);
+  command
+      .add_option("--largest-ratio", o.largestRatio,
+                  "Of Young's moduli of two regions (fem: cells' MaterialRegion)")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_flag("--yielding-support", o.yieldingSupport,
+                "The support is an elastic foundation of unknown stiffness")
+      ->group(group);
+  command
+      .add_flag("--register", o.isRegistered,
+                "The measurements' frame is the surface's but for an unknown rigid motion")
+      ->group(group);
+}
+
+void addOptions(CLI::App& command, Options& o) {
+  command
+      .add_option("input", o.input,
+                  "The body at rest: a closed triangle surface, or for fem a volume mesh (.vtu, "
+                  ".vtk)")
+      ->required();
+  requireWritable(
+      command
+          .add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
+          ->required(),
+      "models", ".vtp");
+  command
+      .add_option("--measurements", o.measurements,
+                  "Displacements under known forces: a table (.csv), or a .vtp that carries it")
+      ->required();
+  command
+      .add_option("--length-unit", o.lengthUnit,
+                  "Of the measurements, the surface's being m: m, cm, mm, um, in or ft")
+      ->capture_default_str();
+  command.add_option("--force-unit", o.forceUnit, "Of forces: N, mN, kN, MN, lbf or kgf")
+      ->capture_default_str();
+  addUnknowns(command, o);
+  o.support.addPlacesTo(command);
+  command.add_option("--method", o.method, "bem, or fem: tetrahedra inside the surface")
+      ->check(CLI::IsMember({"bem", "fem"}))
+      ->capture_default_str();
+  command
+      .add_option("--loss", o.loss,
+                  "How residuals count while outliers are looked for: none (as they are), huber, "
+                  "cauchy or tukey")
+      ->check(CLI::IsMember({"none", "huber", "cauchy", "tukey"}))
+      ->capture_default_str();
+  command.add_option("--folds", o.folds, "Of the cross-validation by probes; 0 for none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--interpolation-tolerance", o.tolerance,
+                  "Of responses between the materials that are computed, relative")
+      ->check(CLI::Range(1e-9, 0.1))
+      ->capture_default_str();
+  command
+      .add_option("--place-tolerance", o.placeTolerance,
+                  "How far a place may be from the surface, over its diagonal")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_flag("--no-estimate", o.noEstimate, "Do not estimate the model's own error");
+  command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+  command.footer(
+      "A table has a line of names, then a line for each displacement, in SI units or as told:\n"
+      "  probe, contact_vertex (or contact_x .. _z), radius, force_x .. _z, vertex (or x, y, z),\n"
+      "  u_x .. _z, and optionally sd (or sd_x .. _z), its standard deviation.\n"
+      "  palpate identify part.stl part.vtp --measurements rig.csv --length-unit mm \\\n"
+      "      --fix-half-space 0 0 0.001  0 0 1\n"
+      "`palpate measure` makes such tables of a model, to try this on.");
+}
+
+bool isVolumeFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".vtu" || extension == ".vtk";
+}
+
+/// Sets the surface with its support, and what fills it if the input does.
+void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
+  vtkNew<vtkReferenceBoundaryConditions> conditions;
+  o.support.applyTo(conditions);
+  conditions->SetYoungsModulus(1);  // what is identified takes its place
+  conditions->SetPoissonRatio(0.3);
+  if (isVolumeFile(o.input)) {
+    if (o.method != "fem")
+      throw std::invalid_argument(o.input + " is a volume mesh: add --method fem");
+    const auto volume = readVolume(o.input);
+    vtkNew<vtkSolidBoundary> boundary;
+    boundary->SetInputData(volume);
+    conditions->SetInputData(run(boundary));
+    filter->SetInputData(1, volume);
+  } else {
+    conditions->SetInputData(readSurface(o.input));
+  }
+  filter->SetInputData(run(conditions));
+  if (std::filesystem::path(o.measurements).extension() == ".vtp")
+    filter->SetInputData(2, readSurface(o.measurements));
+  else
+    filter->SetMeasurementFileName(o.measurements.c_str());
+}
+
+void set(vtkGreensFunctionIdentification* filter, const Options& o) {
+  filter->SetMethod(o.method == "fem");
+  filter->SetLengthUnit(o.lengthUnit.c_str());
+  filter->SetForceUnit(o.forceUnit.c_str());
+  filter->SetPoissonRatio(o.poisson);
+  if (!o.poissonRange.empty()) filter->SetPoissonRange(o.poissonRange[0], o.poissonRange[1]);
+  filter->SetLargestRatio(o.largestRatio);
+  filter->SetYieldingSupport(o.yieldingSupport);
+  filter->SetRegister(o.isRegistered);
+  filter->SetLoss(o.loss == "huber" ? 1 : o.loss == "cauchy" ? 2 : o.loss == "tukey" ? 3 : 0);
+  filter->SetNumberOfFolds(o.folds);
+  filter->SetInterpolationTolerance(o.tolerance);
+  filter->SetPlaceTolerance(o.placeTolerance);
+  filter->SetEstimateError(!o.noEstimate);
+  filter->SetNumberOfThreads(o.threads);
+}
+
+double component(vtkPolyData* model, const char* name, vtkIdType tuple, int c = 0) {
+  return model->GetFieldData()->GetArray(name)->GetComponent(tuple, c);
+}
+
+void printParameters(vtkPolyData* model) {
+  const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames"),
+                                 units = fieldStrings(model, "IdentifiedUnits");
+  const auto value = [&](std::size_t i, int c) {
+    return component(model, "IdentifiedParameters", static_cast<vtkIdType>(i), c);
+  };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string text = number(value(i, 0));
+    if (value(i, 1) > 0)
+      text += " +- " + number(value(i, 1), 2) + " (95 % by noise: " + number(value(i, 2)) + " to " +
+              number(value(i, 3)) + ")";
+    printRow(names[i] + (units[i].empty() ? "" : ", " + units[i]), text);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      printRow("correlation", number(component(model, "IdentifiedCorrelations",
+                                               static_cast<vtkIdType>(i), static_cast<int>(j)),
+                                     2) +
+                                  " of " + names[i] + " with " + names[j]);
+}
+
+void printProbes(vtkPolyData* model) {
+  const std::vector<std::string> names = fieldStrings(model, "ProbeNames");
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    const auto id = static_cast<vtkIdType>(p);
+    printRow("probe " + names[p],
+             "residual " + percent(component(model, "ProbeRelativeResidual", id)) + ", " +
+                 number(component(model, "ProbeResidual", id), 3) + " m, " +
+                 number(component(model, "ProbeOutliers", id)) + " outliers");
+  }
+}
+
+/// Which displacements were left out, by their place in the table.
+std::string outliersOf(vtkPolyData* model) {
+  constexpr int most = 12;
+  vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
+  std::string text;
+  int count = 0;
+  for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
+    if (outliers->GetComponent(i, 0) != 0 && ++count <= most)
+      text += (count > 1 ? ", " : "") + std::to_string(i + 1);
+  if (count > most) text += " and " + std::to_string(count - most) + " more";
+  return count == 0 ? "none"
+                    : std::to_string(count) + " of " +
+                          std::to_string(outliers->GetNumberOfTuples()) + ": displacements " + text;
+}
+
+void printModel(vtkPolyData* model) {
+  for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
+    printRow("made by", source);
+  printParameters(model);
+  if (model->GetFieldData()->GetArray("RegistrationDistance"))
+    printRow("places off the surface",
+             number(fieldNumber(model, "RegistrationDistance", -1), 3) + " m (rms)");
+  printRow("noise", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m");
+  if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
+    printRow("noise over that given", number(misfit, 3));
+  printProbes(model);
+  printRow("outliers", outliersOf(model));
+  if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
+    printRow("error at probes left out", percent(error));
+  printRow("error of interpolation", percent(fieldNumber(model, "ResponseInterpolationError", -1)));
+  if (const double error = fieldNumber(model, "ErrorEstimate", -1); error >= 0)
+    printRow("error of the model itself",
+             percent(error) + " (what the mesh may add to Young's modulus)");
+}
+
+}  // namespace
+
+void addIdentify(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "identify", "Identify a body's material, and its Green's functions, from measurements");
+  addOptions(*command, *options);
+  command->callback([options] {
+    vtkNew<vtkGreensFunctionIdentification> filter;
+    set(filter, *options);
+    setInput(filter, *options);
+    const auto model = run(filter);
+    writeSurface(model, options->output);
+    printModel(model);
+    printWarnings(model);
+  });
+}
+
+}  // namespace palpate::app

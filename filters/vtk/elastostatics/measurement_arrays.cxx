@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "measurement_arrays.h"
+
+#include "array_names.h"
+#include "conversion.h"
+#include "sentence.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+
+namespace palpate::convert
+{
+namespace
+{
+vtkDataArray* optionalArray(vtkPolyData* table, const char* name, int components, vtkIdType tuples)
+{
+  vtkDataArray* array = table->GetFieldData()->GetArray(name);
+  if (array && (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != tuples))
+  {
+    refuse("the field array ", name, " has ", array->GetNumberOfTuples(), " tuples of ",
+      array->GetNumberOfComponents(), " components, but ", tuples, " of ", components,
+      " go with the others");
+  }
+  return array;
+}
+
+vtkDataArray* requiredArray(vtkPolyData* table, const char* name, int components, vtkIdType tuples)
+{
+  vtkDataArray* array = optionalArray(table, name, components, tuples);
+  if (!array)
+  {
+    refuse("the table of measurements has no field array ", name);
+  }
+  return array;
+}
+
+vtkIdType tupleCount(vtkPolyData* table, const char* name)
+{
+  vtkDataArray* array = table->GetFieldData()->GetArray(name);
+  if (!array)
+  {
+    refuse("the table of measurements has no field array ", name);
+  }
+  return array->GetNumberOfTuples();
+}
+
+Eigen::Vector3d vectorAt(vtkDataArray* array, vtkIdType tuple)
+{
+  Eigen::Vector3d value;
+  array->GetTuple(tuple, value.data());
+  return value;
+}
+
+/// Places by vertices, by points, or by both where the vertex is -1 for a point.
+class Places
+{
+public:
+  Places(vtkPolyData* table, const char* vertices, const char* points, vtkIdType count, double unit)
+    : Vertices(optionalArray(table, vertices, 1, count))
+    , Points(optionalArray(table, points, 3, count))
+    , Name(vertices)
+    , Unit(unit)
+  {
+    if (!this->Vertices && !this->Points)
+    {
+      refuse("the table of measurements has neither a field array ", vertices, " nor ", points);
+    }
+  }
+  RestPlace operator[](vtkIdType i) const
+  {
+    RestPlace place;
+    if (this->Vertices && (!this->Points || this->Vertices->GetComponent(i, 0) != -1))
+    {
+      place.vertex = vertexNumber(this->Vertices->GetComponent(i, 0), VTK_INT_MAX, this->Name, i);
+    }
+    else
+    {
+      place.point = this->Unit * vectorAt(this->Points, i);
+    }
+    return place;
+  }
+
+private:
+  vtkDataArray *Vertices, *Points;
+  std::string Name;
+  double Unit;
+};
+
+void setPlaces(vtkPolyData* table, const char* vertexName, const char* pointName,
+  const std::vector<RestPlace>& places)
+{
+  vtkNew<vtkIdTypeArray> vertices;
+  vertices->SetName(vertexName);
+  Eigen::Matrix3Xd points(3, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    vertices->InsertNextValue(places[i].vertex);
+    points.col(i) = places[i].point;
+  }
+  table->GetFieldData()->AddArray(vertices);
+  setFieldVectors(table, pointName, points);
+}
+
+/// What setFieldVectors refuses: NaN stands for what was not measured.
+void setVectorsWithGaps(vtkPolyData* table, const char* name, const Eigen::Matrix3Xd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(values.cols());
+  std::copy_n(values.data(), values.size(), array->GetPointer(0));
+  table->GetFieldData()->AddArray(array);
+}
+
+void setColumn(vtkPolyData* table, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  table->GetFieldData()->AddArray(array);
+}
+
+void setTuples(vtkPolyData* table, const char* name, const Eigen::MatrixXd& rows)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(rows.cols()));
+  array->SetNumberOfTuples(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    {
+      array->SetComponent(i, static_cast<int>(j), rows(i, j));
+    }
+  }
+  table->GetFieldData()->AddArray(array);
+}
+
+void readProbes(vtkPolyData* table, double length, double force, Measurements& result)
+{
+  const vtkIdType count = tupleCount(table, arrays::ProbeForce);
+  vtkDataArray* forces = requiredArray(table, arrays::ProbeForce, 3, count);
+  vtkDataArray* radii = optionalArray(table, arrays::ProbeRadius, 1, count);
+  const Places contacts(table, arrays::ProbeVertex, arrays::ProbePoint, count, length);
+  auto* names = vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray(arrays::ProbeNames));
+  for (vtkIdType p = 0; p < count; ++p)
+  {
+    Probe probe;
+    probe.name =
+      names && names->GetNumberOfValues() == count ? std::string(names->GetValue(p)) : std::to_string(p);
+    probe.contact = contacts[p];
+    probe.radius = radii ? length * radii->GetComponent(p, 0) : 0;
+    probe.force = force * vectorAt(forces, p);
+    result.probes.push_back(probe);
+  }
+}
+} // namespace
+
+Measurements measurementsOf(vtkPolyData* table, double length, double force)
+{
+  Measurements result;
+  result.source = "the table of measurements";
+  result.rowWord = "tuple";
+  readProbes(table, length, force, result);
+  const vtkIdType count = tupleCount(table, arrays::MeasuredDisplacement);
+  vtkDataArray* probes = requiredArray(table, arrays::MeasurementProbe, 1, count);
+  vtkDataArray* displacements = requiredArray(table, arrays::MeasuredDisplacement, 3, count);
+  vtkDataArray* deviations = table->GetFieldData()->GetArray(arrays::MeasurementDeviation);
+  if (deviations)
+  {
+    optionalArray(
+      table, arrays::MeasurementDeviation, deviations->GetNumberOfComponents() == 3 ? 3 : 1, count);
+  }
+  const Places markers(table, arrays::MeasurementVertex, arrays::MeasurementPoint, count, length);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    MeasuredDisplacement measured;
+    measured.row = static_cast<int>(i);
+    measured.probe = vertexNumber(probes->GetComponent(i, 0), result.probes.size(),
+      std::string(arrays::MeasurementProbe) + ", tuple ", i);
+    measured.marker = markers[i];
+    measured.displacement = length * vectorAt(displacements, i);
+    for (int c = 0; deviations && c < 3; ++c)
+    {
+      measured.deviation[c] =
+        length * deviations->GetComponent(i, deviations->GetNumberOfComponents() == 3 ? c : 0);
+    }
+    result.displacements.push_back(measured);
+  }
+  requireSound(result);
+  return result;
+}
+
+void setMeasurements(vtkPolyData* table, const Measurements& measurements)
+{
+  removeIdentification(table);
+  const Eigen::Index count = measurements.displacements.size(), probes = measurements.probes.size();
+  std::vector<RestPlace> markers, contacts;
+  std::vector<double> probeOf, radii;
+  std::vector<std::string> names;
+  Eigen::Matrix3Xd displacements(3, count), deviations(3, count), forces(3, probes);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const MeasuredDisplacement& measured = measurements.displacements[i];
+    probeOf.push_back(measured.probe);
+    markers.push_back(measured.marker);
+    displacements.col(i) = measured.displacement;
+    deviations.col(i) = measured.deviation;
+  }
+  for (Eigen::Index p = 0; p < probes; ++p)
+  {
+    const Probe& probe = measurements.probes[p];
+    names.push_back(probe.name);
+    contacts.push_back(probe.contact);
+    radii.push_back(probe.radius);
+    forces.col(p) = probe.force;
+  }
+  setColumn(table, arrays::MeasurementProbe, probeOf);
+  setPlaces(table, arrays::MeasurementVertex, arrays::MeasurementPoint, markers);
+  setVectorsWithGaps(table, arrays::MeasuredDisplacement, displacements);
+  if (measurements.hasDeviations())
+  {
+    setFieldVectors(table, arrays::MeasurementDeviation, deviations);
+  }
+  setFieldStrings(table, arrays::ProbeNames, names);
+  setPlaces(table, arrays::ProbeVertex, arrays::ProbePoint, contacts);
+  setColumn(table, arrays::ProbeRadius, radii);
+  setFieldVectors(table, arrays::ProbeForce, forces);
+}
+
+void setIdentification(
+  vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements)
+{
+  setMeasurements(surface, measurements);
+  setVectorsWithGaps(surface, arrays::MeasurementResidual, result.residuals);
+  vtkNew<vtkUnsignedCharArray> outliers;
+  outliers->SetName(arrays::MeasurementOutlier);
+  outliers->SetNumberOfTuples(result.residuals.cols());
+  outliers->Fill(0);
+  for (int i : result.outliers)
+  {
+    outliers->SetValue(i, 1);
+  }
+  surface->GetFieldData()->AddArray(outliers);
+  std::vector<double> residuals, relative, counts;
+  for (const ProbeFit& probe : result.probes)
+  {
+    residuals.push_back(probe.residual);
+    relative.push_back(probe.relative);
+    counts.push_back(probe.outliers);
+  }
+  setColumn(surface, arrays::ProbeResidual, residuals);
+  setColumn(surface, arrays::ProbeRelativeResidual, relative);
+  setColumn(surface, arrays::ProbeOutliers, counts);
+  std::vector<std::string> names, units;
+  Eigen::MatrixXd values(result.parameters.size(), 4);
+  double poissonDeviation = 0;
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+  {
+    const IdentifiedParameter& p = result.parameters[i];
+    names.push_back(p.name);
+    units.push_back(p.unit);
+    values.row(i) << p.value, p.deviation, p.lower, p.upper;
+    poissonDeviation = p.name == "Poisson's ratio" ? p.deviation : poissonDeviation;
+  }
+  setFieldStrings(surface, arrays::IdentifiedNames, names);
+  setFieldStrings(surface, arrays::IdentifiedUnits, units);
+  setTuples(surface, arrays::IdentifiedParameters, values);
+  setTuples(surface, arrays::IdentifiedCorrelations, result.correlations);
+  setFieldNumber(surface, arrays::YoungsModulusDeviation, result.parameters.front().deviation);
+  setFieldNumber(surface, arrays::PoissonRatioDeviation, poissonDeviation);
+  setFieldNumber(surface, arrays::SupportYieldLength, result.foundationLength);
+  setFieldNumber(surface, arrays::MeasurementNoise, result.noise);
+  setFieldNumber(surface, arrays::MeasurementMisfit, result.misfit);
+  setFieldNumber(surface, arrays::HoldOutError, result.holdOutError);
+  setFieldNumber(surface, arrays::ResponseInterpolationError, result.interpolationError);
+}
+
+void setRegistration(vtkPolyData* surface, const Registration& registration)
+{
+  std::vector<double> rotation, deviations;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      rotation.push_back(registration.rotation(i, j));
+    }
+  }
+  for (int i = 0; i < 6; ++i)
+  {
+    deviations.push_back(
+      i < 3 ? registration.rotationDeviation[i] : registration.translationDeviation[i - 3]);
+  }
+  setFieldNumbers(surface, arrays::RegistrationRotation, rotation);
+  setFieldVector(surface, arrays::RegistrationTranslation, registration.translation);
+  setFieldNumbers(surface, arrays::RegistrationDeviation, deviations);
+  setFieldNumber(surface, arrays::RegistrationDistance, registration.distance);
+}
+
+void removeIdentification(vtkPolyData* surface)
+{
+  for (const char* name : arrays::IdentificationResults)
+  {
+    surface->GetFieldData()->RemoveArray(name);
+  }
+}
+} // namespace palpate::convert

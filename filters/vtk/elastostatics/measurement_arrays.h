@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef palpate_measurement_arrays_h
+#define palpate_measurement_arrays_h
+
+#include "identification/material_identification.h"
+#include "identification/measurements.h"
+#include "identification/registration.h"
+
+#include <string>
+
+class vtkPolyData;
+
+/// Tables of measurements as field data (see array_names.h). Not for wrapping. All functions throw
+/// std::invalid_argument with a sentence for data that cannot be used.
+namespace palpate::convert
+{
+/// A table, sound (palpate::requireSound).
+/// @param length, force  units of the table, m and N.
+Measurements measurementsOf(vtkPolyData* table, double length = 1, double force = 1);
+
+/// Adds a table, in place of one that is there.
+void setMeasurements(vtkPolyData* table, const Measurements& measurements);
+
+/// Adds what was identified, but for the material itself.
+void setIdentification(
+  vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements);
+void setRegistration(vtkPolyData* surface, const Registration& registration);
+
+/// Takes away a table and what was identified from it.
+void removeIdentification(vtkPolyData* surface);
+} // namespace palpate::convert
+
+#endif

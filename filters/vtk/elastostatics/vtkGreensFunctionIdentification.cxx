@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkGreensFunctionIdentification.h"
+
+#include "array_names.h"
+#include "bem/boundary_element_method.h"
+#include "contact/mask_settings.h"
+#include "contact/point_load.h"
+#include "conversion.h"
+#include "fem/finite_element_method.h"
+#include "identification/measurement_file.h"
+#include "measurement_arrays.h"
+#include "model_arrays.h"
+#include "sentence.h"
+#include "units.h"
+#include "volume_arrays.h"
+
+#include "vtkCellData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+vtkStandardNewMacro(vtkGreensFunctionIdentification);
+
+namespace
+{
+constexpr double SplitFrom = palpate::Elasticity::kSplitFrom;
+
+/// Regions of the tetrahedra of a grid, in their order; empty where it has none.
+std::vector<int> regionsOf(vtkUnstructuredGrid* grid, int& count)
+{
+  count = 1;
+  vtkDataArray* array =
+    grid ? grid->GetCellData()->GetArray(palpate::arrays::MaterialRegion) : nullptr;
+  std::vector<int> regions;
+  for (vtkIdType cell = 0; array && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = grid->GetCellType(cell);
+    if (type != VTK_TETRA && type != VTK_QUADRATIC_TETRA)
+    {
+      continue; // of lower dimension
+    }
+    regions.push_back(palpate::convert::vertexNumber(
+      array->GetComponent(cell, 0), grid->GetNumberOfCells(), "MaterialRegion of cell ", cell));
+  }
+  if (regions.empty())
+  {
+    return regions;
+  }
+  count = *std::max_element(regions.begin(), regions.end()) + 1;
+  for (int region = 0; region < count; ++region)
+  {
+    if (std::find(regions.begin(), regions.end(), region) == regions.end())
+    {
+      palpate::refuse("no cell is of the MaterialRegion ", region, ", but some are of ", count - 1);
+    }
+  }
+  return regions;
+}
+
+/// Where a surface is pressed and looked at.
+struct ProbedSurface
+{
+  palpate::MeasuredSetup Setup;
+  std::vector<Eigen::Vector3d> Normals; // of the contacts
+};
+
+ProbedSurface probedSurface(
+  const palpate::ElasticModel& model, const palpate::Measurements& measurements, double tolerance)
+{
+  const palpate::SurfaceMesh& mesh = model.mesh();
+  const palpate::BoundaryConditions& conditions = model.conditions();
+  const palpate::MeasuredPlaces places =
+    palpate::placesOn(mesh, conditions, measurements, tolerance);
+  ProbedSurface probed;
+  std::vector<palpate::SpreadForce> loads;
+  for (std::size_t p = 0; p < places.contacts.size(); ++p)
+  {
+    const auto masks = palpate::makeMasks(
+      mesh, conditions, { palpate::MaskKind::Linear, measurements.probes[p].radius });
+    loads.push_back(palpate::pointLoad(*masks, mesh, conditions, places.contacts[p]));
+    probed.Normals.push_back(mesh.triangleNormals().col(places.contacts[p].triangle));
+  }
+  probed.Setup = palpate::measuredSetup(mesh, measurements, places, std::move(loads));
+  return probed;
+}
+} // namespace
+
+/// The body and how its Green's functions are computed for a material.
+struct vtkGreensFunctionIdentification::Body
+{
+  const vtkGreensFunctionIdentification& Filter;
+  palpate::ElasticModel Given;
+  std::optional<palpate::TetrahedralMesh> Mesh;
+  std::vector<int> RegionOfCell;
+  int Regions = 1;
+  std::vector<int> Columns; // empty for all free nodes
+
+  palpate::ElasticModel ModelOf(const palpate::Material& material) const
+  {
+    return { this->Given.sharedMesh(), material, this->Given.conditions(), this->Given.smoothPatches() };
+  }
+
+  palpate::ComputedGreensFunctions Compute(const std::vector<palpate::Material>& materials,
+    bool estimate, const palpate::Progress& progress) const
+  {
+    const palpate::ElasticModel model = this->ModelOf(materials.front());
+    if (!this->Mesh)
+    {
+      palpate::BoundaryElementOptions options;
+      options.columns = this->Columns;
+      options.reciprocal = this->Filter.Reciprocal;
+      options.threads = this->Filter.NumberOfThreads;
+      options.estimateError = estimate;
+      return palpate::computeBoundaryElementGreensFunctions(model, options, progress.callback());
+    }
+    palpate::FiniteElementOptions options;
+    options.columns = this->Columns;
+    options.reciprocal = this->Filter.Reciprocal;
+    options.estimateError = estimate && this->Regions == 1;
+    std::vector<palpate::Elasticity> elasticities;
+    for (const palpate::Material& material : materials)
+    {
+      elasticities.emplace_back(material);
+    }
+    const palpate::SolidBody body(
+      model.mesh(), *this->Mesh, std::move(elasticities), this->RegionOfCell);
+    return palpate::computeFiniteElementGreensFunctions(model, body, options, progress.callback());
+  }
+};
+
+vtkGreensFunctionIdentification::vtkGreensFunctionIdentification()
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkGreensFunctionIdentification::~vtkGreensFunctionIdentification() = default;
+
+void vtkGreensFunctionIdentification::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n"
+     << indent << "MeasurementFileName: " << this->MeasurementFileName << "\n"
+     << indent << "LengthUnit: " << this->LengthUnit << "\n"
+     << indent << "ForceUnit: " << this->ForceUnit << "\n"
+     << indent << "PoissonRatio: " << this->PoissonRatio << "\n"
+     << indent << "PoissonRange: " << this->PoissonRange[0] << ", " << this->PoissonRange[1] << "\n"
+     << indent << "YieldingSupport: " << this->YieldingSupport << "\n"
+     << indent << "Register: " << this->Register << "\n"
+     << indent << "Loss: " << this->Loss << "\n"
+     << indent << "LargestRatio: " << this->LargestRatio << "\n"
+     << indent << "InterpolationTolerance: " << this->InterpolationTolerance << "\n"
+     << indent << "NumberOfFolds: " << this->NumberOfFolds << "\n"
+     << indent << "PlaceTolerance: " << this->PlaceTolerance << "\n"
+     << indent << "EstimateError: " << this->EstimateError << "\n";
+}
+
+void vtkGreensFunctionIdentification::SetMeasurementFileName(const char* name)
+{
+  this->SetName(this->MeasurementFileName, name);
+}
+
+void vtkGreensFunctionIdentification::SetLengthUnit(const char* unit)
+{
+  this->SetName(this->LengthUnit, unit);
+}
+
+void vtkGreensFunctionIdentification::SetForceUnit(const char* unit)
+{
+  this->SetName(this->ForceUnit, unit);
+}
+
+int vtkGreensFunctionIdentification::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(
+    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkUnstructuredGrid" : "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOf(vtkPolyData* table) const
+{
+  if (!table == this->MeasurementFileName.empty())
+  {
+    palpate::refuse("measurements come from a file or from the third input: give one of the two");
+  }
+  const palpate::MeasurementUnits units{ palpate::lengthUnitNamed(this->LengthUnit),
+    palpate::forceUnitNamed(this->ForceUnit) };
+  return table ? palpate::convert::measurementsOf(table, units.length, units.force)
+               : palpate::readMeasurementFile(this->MeasurementFileName, units);
+}
+
+vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
+  vtkPolyData* surface, vtkUnstructuredGrid* grid) const
+{
+  namespace convert = palpate::convert;
+  Body body{ *this, convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior), {}, {}, 1,
+    {} };
+  const bool isSolid = this->Method == FINITE_ELEMENTS;
+  if (grid && !isSolid)
+  {
+    palpate::refuse("a volume mesh goes with finite elements: choose them, or leave it out");
+  }
+  if (grid)
+  {
+    body.Mesh = convert::tetrahedraOf(grid);
+    body.RegionOfCell = regionsOf(grid, body.Regions);
+  }
+  else if (isSolid)
+  {
+    const palpate::Tetrahedralization filled = palpate::tetrahedralize(body.Given.mesh());
+    if (filled.lostTriangles > 0)
+    {
+      palpate::refuse("the filling with tetrahedra has other triangles than the surface (",
+        filled.lostTriangles, "): give a volume mesh, whose boundary the surface is");
+    }
+    body.Mesh = filled.mesh;
+  }
+  if (this->YieldingSupport)
+  {
+    if (body.Given.conditions().fixedNodes().empty())
+    {
+      palpate::refuse("a support that yields needs fixed vertices");
+    }
+    body.Columns.resize(body.Given.mesh().vertexCount());
+    std::iota(body.Columns.begin(), body.Columns.end(), 0);
+  }
+  return body;
+}
+
+palpate::IdentificationOptions vtkGreensFunctionIdentification::OptionsFor(const Body& body) const
+{
+  palpate::IdentificationOptions options;
+  palpate::MaterialUnknowns& unknowns = options.unknowns;
+  unknowns.poisson = std::isnan(this->PoissonRatio);
+  unknowns.poissonRatio = this->PoissonRatio;
+  if (body.Mesh)
+  {
+    unknowns.poissonUpper = SplitFrom - 1e-3;
+  }
+  if (!std::isnan(this->PoissonRange[0]))
+  {
+    unknowns.poissonLower = this->PoissonRange[0];
+    unknowns.poissonUpper = this->PoissonRange[1];
+  }
+  if (body.Mesh && unknowns.poisson && unknowns.poissonLower < SplitFrom &&
+    unknowns.poissonUpper >= SplitFrom)
+  {
+    palpate::refuse("finite elements are of another kind from Poisson's ratio ", SplitFrom,
+      " on: look for it below, or from there on");
+  }
+  unknowns.regions = body.Regions;
+  unknowns.largestRatio = this->LargestRatio;
+  unknowns.support = this->YieldingSupport;
+  options.loss = static_cast<palpate::RobustLoss>(this->Loss);
+  options.interpolationTolerance = this->InterpolationTolerance;
+  options.folds = this->NumberOfFolds;
+  return options;
+}
+
+void vtkGreensFunctionIdentification::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
+{
+  namespace convert = palpate::convert;
+  const palpate::Progress progress(
+    [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
+  if (this->PatchColumns || this->GetColumnNodes())
+  {
+    palpate::refuse("identification computes the Green's functions of all free vertices: leave columns "
+                    "and patch columns out");
+  }
+  palpate::Measurements measurements = this->MeasurementsOf(vtkPolyData::GetData(inputs[2]));
+  const Body body = this->BodyOf(input, vtkUnstructuredGrid::GetData(inputs[1]));
+  const palpate::SurfaceMesh& mesh = body.Given.mesh();
+  palpate::Registration registration;
+  if (this->Register)
+  {
+    registration = palpate::registerToSurface(
+      mesh, measurements, [&] { return this->ReportProgress(0, "register"); });
+    measurements = palpate::registered(measurements, registration);
+  }
+  const ProbedSurface probed =
+    probedSurface(body.Given, measurements, this->PlaceTolerance * mesh.diagonal());
+  const palpate::MaterialIdentifier identifier(
+    [&](const std::vector<palpate::Material>& materials, const palpate::Progress& part)
+    {
+      const auto greens = body.Compute(materials, false, part).take();
+      return palpate::MeasuredResponse(*greens, probed.Setup, this->YieldingSupport);
+    },
+    probed.Setup, mesh.diagonal(), probed.Normals, this->OptionsFor(body), progress.part(0, 0.7));
+  const palpate::MaterialIdentification result =
+    identifier.identify(measurements, progress.part(0.7, 0.75));
+
+  palpate::ComputedGreensFunctions greens =
+    body.Compute(result.materials, this->EstimateError, progress.part(0.75, 1));
+  greens.info.source += palpate::sentence("; identified from ", measurements.displacements.size(),
+    " displacements under ", measurements.probes.size(), " probes (",
+    this->MeasurementFileName.empty() ? "a table" : this->MeasurementFileName, ")");
+  std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  const palpate::Material& material = result.materials.front();
+  const palpate::ElasticModel model = body.ModelOf(material);
+  vtkNew<vtkPolyData> computed;
+  convert::setGreensFunctions(computed, model, std::move(greens));
+  convert::removeResponses(output);
+  convert::setFieldNumber(output, palpate::arrays::YoungsModulus, material.youngsModulus());
+  convert::setFieldNumber(output, palpate::arrays::PoissonRatio, material.poissonRatio());
+  convert::shareGreensFunctions(computed, output, material.youngsModulus());
+  convert::setIdentification(output, result, measurements);
+  if (this->Register)
+  {
+    convert::setRegistration(output, registration);
+  }
+  this->MarkPatches(input, model, output);
+}

@@ -1,0 +1,304 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials, and with them Green's functions, from measurements."""
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+
+from .arguments import (
+    choice,
+    flag,
+    number,
+    numbers,
+    progress_callback,
+    surface_of,
+    vector,
+    whole_number,
+)
+from .arrays import as_vtk
+from .errors import Error, run
+from .files import path_of
+from .imports import is_path
+from .PalpateElastostatics import vtkGreensFunctionIdentification, vtkRigSimulation
+from .precomputation import boundary_of, computed, posed
+
+LOSSES = {"none": 0, "huber": 1, "cauchy": 2, "tukey": 3}
+MOST = 2**31 - 1
+
+__all__ = ["identify", "measurement_table", "simulate_measurements"]
+
+
+def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
+             volume=None, largest_ratio=10.0, yielding_support=False, register=False, loss="cauchy",
+             folds=5, length_unit="m", force_unit="N", interpolation_tolerance=1e-4,
+             place_tolerance=0.02, smooth_angle=30.0, reciprocal=True, estimate_error=True, threads=0,
+             progress=None):
+    """Identify the material of a body from displacements under known forces.
+
+    Parameters
+    ----------
+    surface : vtkPolyData or vtkUnstructuredGrid
+        The body at rest: a closed triangle surface of n vertices, or with method="fem" tetrahedra.
+    measurements : str, path-like or vtkPolyData
+        A table: a file (`palpate identify --help` tells its columns), or polydata that carry it as
+        field arrays, such as from `measurement_table` and `simulate_measurements`.
+    poisson : float, optional
+        Poisson's ratio where it is known. By default it is identified.
+    poisson_range : (float, float), optional
+        Where it is looked for: by default from 0 to 0.499, with finite elements to 0.449.
+    fixed : array_like of bool, optional
+        n values, where the body is held. None takes the surface's point array `BoundaryType`.
+    method : {"bem", "fem"}
+        Boundary elements, or finite elements in tetrahedra.
+    volume : vtkUnstructuredGrid, optional
+        For finite elements: tetrahedra whose boundary the surface is. Its cell array `MaterialRegion`
+        (int from 0) says which have a Young's modulus of their own.
+    largest_ratio : float
+        Of the Young's moduli of two regions.
+    yielding_support : bool
+        The support is an elastic foundation of unknown stiffness: `SupportYieldLength` is Young's
+        modulus over its stiffness per area. The model that comes back is on a firm one, with the
+        columns that `solve` needs for `foundation`.
+    register : bool
+        The measurements' frame is the surface's but for an unknown rigid motion.
+    loss : {"cauchy", "huber", "tukey", "none"}
+        How residuals count while outliers are looked for, which are then left out.
+    folds : int
+        Of the cross-validation by probes (`HoldOutError`), 0 for none.
+    length_unit, force_unit : str
+        Of the measurements, the surface's being metres: as in `import_compliance`.
+    interpolation_tolerance : float
+        Relative, of responses between those materials for which Green's functions are computed.
+    place_tolerance : float
+        How far a place may be from the surface, over its diagonal.
+    smooth_angle, reciprocal, estimate_error, threads
+        As in `precompute`.
+    progress : callable or bool, optional
+        Called as progress(fraction, stage); return False to abort. True shows a bar.
+
+    Returns
+    -------
+    vtkPolyData
+        The model of the identified material, as `precompute` gives it, with field arrays:
+        `IdentifiedNames`, `IdentifiedParameters` (value, standard deviation, interval of 95 %),
+        `IdentifiedCorrelations`, the table in the surface's frame with `MeasurementResidual` and
+        `MeasurementOutlier`, `HoldOutError` and more (see array_names.h). The deviations are of noise;
+        `ErrorEstimate` says what the mesh may add.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the table, by row, or what the data do not determine
+        and which probe would help.
+    Aborted
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.refine(palpate.read(palpate.example("nodule")))
+    >>> body = palpate.precompute(nodule, young=20e3, poisson=0.4)
+    >>> table = palpate.simulate_measurements(body, noise=0.01)
+    >>> model = palpate.identify(nodule, table, folds=0)
+    >>> young, poisson = palpate.array(model, "IdentifiedParameters")[:, 0]
+    >>> bool(abs(young / 20e3 - 1) < 0.02), bool(abs(poisson - 0.4) < 0.05)
+    (True, True)
+    """
+    choice(method, {"bem": 0, "fem": 1}, "method")
+    if isinstance(surface, vtkUnstructuredGrid):
+        if method != "fem" or volume is not None:
+            raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
+        surface, volume = boundary_of(surface), surface
+    filter = vtkGreensFunctionIdentification()
+    filter.SetMethod(method == "fem")
+    if volume is not None:
+        if not isinstance(volume, vtkUnstructuredGrid):
+            raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")
+        filter.SetInputData(1, volume)
+    if is_path(measurements):
+        filter.SetMeasurementFileName(path_of(measurements))
+    elif isinstance(measurements, vtkPolyData):
+        filter.SetInputData(2, measurements)
+    else:
+        raise Error("measurements must be a file or a vtkPolyData that carries their table, not "
+                    f"{type(measurements).__name__}")
+    for unit, set_unit in ((length_unit, filter.SetLengthUnit), (force_unit, filter.SetForceUnit)):
+        if not isinstance(unit, str):
+            raise Error(f"a unit must be a string, not {type(unit).__name__}")
+        set_unit(unit)
+    set_unknowns(filter, poisson, poisson_range)
+    filter.SetLargestRatio(number(largest_ratio, "largest_ratio"))
+    filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    filter.SetRegister(flag(register, "register"))
+    filter.SetLoss(choice(loss, LOSSES, "loss"))
+    filter.SetNumberOfFolds(whole_number(folds, "folds", 1000))
+    filter.SetInterpolationTolerance(number(interpolation_tolerance, "interpolation_tolerance"))
+    filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))
+    filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
+    filter.SetReciprocal(flag(reciprocal, "reciprocal"))
+    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
+    filter.SetNumberOfThreads(whole_number(threads, "threads", 1024))
+    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))  # what is identified takes their place
+    return computed(filter, progress)
+
+
+def set_unknowns(filter, poisson, poisson_range):
+    """Poisson's ratio as it is known, or where it is looked for."""
+    if poisson is not None:
+        if poisson_range is not None:
+            raise Error("give poisson, if it is known, or poisson_range, not both")
+        filter.SetPoissonRatio(number(poisson, "Poisson's ratio"))
+    if poisson_range is not None:
+        limits = numbers(poisson_range, "poisson_range").ravel()
+        if limits.size != 2 or not np.isfinite(limits).all():
+            raise Error("poisson_range must be two numbers")
+        filter.SetPoissonRange(*map(float, limits))
+
+
+def measurement_table(probe, displacements, forces, *, markers=None, marker_vertices=None,
+                      contacts=None, contact_vertices=None, radius=0.0, deviations=None):
+    """Measurements in arrays as a table for `identify`.
+
+    Parameters
+    ----------
+    probe : array_like of int
+        m values: under which probe, from 0, each displacement was measured.
+    displacements : array_like
+        m by 3, metres; NaN where a component was not measured.
+    forces : array_like
+        p by 3, newtons on the body: of each probe.
+    markers : array_like, optional
+        m by 3: places of the markers at rest; or instead
+    marker_vertices : array_like of int, optional
+        m vertices of the surface.
+    contacts : array_like, optional
+        p by 3: places where the probes press, at rest; or instead
+    contact_vertices : array_like of int, optional
+        p vertices.
+    radius : float or array_like
+        Of the masks that spread the forces, one number or p.
+    deviations : float or array_like, optional
+        Standard deviations of the displacements: one number, m, or m by 3.
+
+    Returns
+    -------
+    vtkPolyData
+        Without points, with the table as field arrays (see array_names.h).
+
+    Raises
+    ------
+    Error
+        If sizes do not go together, or places are given twice or not at all.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> table = palpate.measurement_table(
+    ...     [0, 0], [[0, 0, -1e-3], [1e-4, 0, 0]], [[0, 0, -2]], marker_vertices=[3, 8],
+    ...     contact_vertices=[3], radius=0.01)
+    >>> palpate.array(table, "MeasuredDisplacement").shape
+    (2, 3)
+    """
+    table = vtkPolyData()
+    shown = numbers(displacements, "displacements")
+    count, probes = len(np.atleast_1d(shown)), len(np.atleast_1d(numbers(forces, "forces")))
+
+    def add(name, values, shape, what):
+        values = numbers(values, what)
+        try:
+            values = np.broadcast_to(values, shape)
+        except ValueError:
+            raise Error(f"{what} must be {' by '.join(map(str, shape))} numbers, not "
+                        f"{'x'.join(map(str, values.shape))}") from None
+        components = shape[1] if len(shape) > 1 else 1
+        table.GetFieldData().AddArray(as_vtk(np.array(values), name, components, float))
+
+    def add_places(kind, vertices, places, rows, what):
+        if (vertices is None) == (places is None):
+            raise Error(f"{what} are given as vertices or as places: give one of the two")
+        if vertices is not None:
+            add(f"{kind}Vertex", vertices, (rows,), what)
+        else:
+            add(f"{kind}Point", places, (rows, 3), what)
+
+    add("MeasurementProbe", probe, (count,), "probe")
+    add("MeasuredDisplacement", shown, (count, 3), "displacements")
+    add("ProbeForce", forces, (probes, 3), "forces")
+    add("ProbeRadius", radius, (probes,), "radius")
+    add_places("Measurement", marker_vertices, markers, count, "markers")
+    add_places("Probe", contact_vertices, contacts, probes, "contacts")
+    if deviations is not None:
+        given = numbers(deviations, "deviations")
+        add("MeasurementDeviation", given[:, None] if given.ndim == 1 else given, (count, 3),
+            "deviations")
+    return table
+
+
+def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=None, tilt=45.0,
+                          noise=0.01, with_deviations=False, outliers=0.0, missing=0.0,
+                          rotation=(0, 0, 0), translation=(0, 0, 0), yield_length=0.0, seed=1):
+    """The displacements that a rig would measure on a model, to try `identify` on.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        The body on the rig, from `precompute`: of a finer mesh or another method than what will be
+        identified, else its discretisation is not tried.
+    probes, markers : int
+        How many press, and how many are seen under each.
+    radius : float, optional
+        Of a probe's tip, m; two mean edges by default.
+    force : float, optional
+        N; by default so that the largest displacement is 1 % of the diagonal.
+    tilt : float
+        Largest angle of the forces from the normal, degrees.
+    noise : float
+        Standard deviation over the largest displacement.
+    with_deviations : bool
+        The table tells it.
+    outliers, missing : float
+        Shares of the displacements that are wrong, and that are not seen.
+    rotation, translation : array_like
+        The rig's frame: the body turned by a vector of degrees, then moved by metres.
+    yield_length : float
+        Young's modulus over the stiffness per area of the support, m; 0 for a firm one.
+    seed : int
+        Of all that is random.
+
+    Returns
+    -------
+    vtkPolyData
+        The surface with the table as field arrays, without Green's functions.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is out of range.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.read(palpate.example("nodule"))
+    >>> body = palpate.precompute(nodule, young=20e3, poisson=0.4, estimate_error=False)
+    >>> table = palpate.simulate_measurements(body, probes=3, markers=10)
+    >>> palpate.array(table, "MeasuredDisplacement").shape
+    (30, 3)
+    """
+    rig = vtkRigSimulation()
+    rig.SetInputData(surface_of(model))
+    rig.SetNumberOfProbes(whole_number(probes, "probes", MOST))
+    rig.SetNumberOfMarkers(whole_number(markers, "markers", MOST))
+    if radius is not None:
+        rig.SetRadius(number(radius, "radius"))
+    if force is not None:
+        rig.SetForce(number(force, "force"))
+    rig.SetTilt(number(tilt, "tilt"))
+    rig.SetNoise(number(noise, "noise"))
+    rig.SetWithDeviations(flag(with_deviations, "with_deviations"))
+    rig.SetOutliers(number(outliers, "outliers"))
+    rig.SetMissing(number(missing, "missing"))
+    rig.SetRotation(*vector(rotation, "rotation"))
+    rig.SetTranslation(*vector(translation, "translation"))
+    rig.SetSupportYieldLength(number(yield_length, "yield_length"))
+    rig.SetSeed(whole_number(seed, "seed", MOST))
+    return run(rig, progress_callback(None))

@@ -1,0 +1,247 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials from measurements through filters, files, program and package."""
+
+import doctest
+import functools
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from palpate.arrays import as_vtk
+from palpate import identification
+from support.refused import Refusals
+from support.surfaces import failure_of, lower_cap, points_of, run, sphere
+
+YOUNG, POISSON = 2e4, 0.4
+
+
+def held_sphere(levels=2):
+    surface = sphere(levels)
+    surface.GetPointData().AddArray(as_vtk(lower_cap(surface), "BoundaryType", 1, np.uint8))
+    return surface
+
+
+@functools.lru_cache(maxsize=None)
+def body():
+    return palpate.precompute(held_sphere(), young=YOUNG, poisson=POISSON, estimate_error=False)
+
+
+@functools.lru_cache(maxsize=None)
+def table(**settings):
+    return palpate.simulate_measurements(body(), radius=0.4, **settings)
+
+
+@functools.lru_cache(maxsize=None)
+def identified():
+    return palpate.identify(held_sphere(), table())
+
+
+class Folder(Refusals):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+
+class Package(Folder):
+    def test_finds_the_material_with_deviations_that_hold(self):
+        model = identified()
+        self.assertEqual(palpate.array(model, "IdentifiedNames"), ["Young's modulus", "Poisson's ratio"])
+        values = palpate.array(model, "IdentifiedParameters")
+        self.assertLess(abs(values[0, 0] / YOUNG - 1), 0.01)
+        self.assertLess(abs(values[1, 0] - POISSON), 0.02)
+        for (value, deviation, low, high), truth in zip(values, (YOUNG, POISSON)):
+            self.assertLess(abs(value - truth), 4 * deviation)
+            self.assertLess(low, value)
+            self.assertLess(value, high)
+        correlations = palpate.array(model, "IdentifiedCorrelations")
+        np.testing.assert_allclose(np.diag(correlations), 1, rtol=1e-12)
+        np.testing.assert_allclose(correlations, correlations.T)
+
+    def test_the_model_is_that_of_the_material(self):
+        model = identified()
+        young, poisson = palpate.array(model, "IdentifiedParameters")[:, 0]
+        again = palpate.precompute(held_sphere(), young=young, poisson=poisson)
+        np.testing.assert_array_equal(palpate.greens_functions(model), palpate.greens_functions(again))
+        self.assertRegex(palpate.array(model, "GreensFunctionSource")[0],
+                         r"; identified from 250 displacements under 5 probes \(a table\)")
+        self.assertEqual(palpate.array(model, "ErrorEstimate"), palpate.array(again, "ErrorEstimate"))
+        pressed = palpate.press(model, point=(0, 0, 1), force=(0, 0, -10), radius=0.4)
+        self.assertTrue(np.isfinite(palpate.array(pressed, "Displacement")).all())
+
+    def test_a_press_seen_at_vertices_gives_its_modulus_back(self):
+        model = identified()
+        force, place = (palpate.array(model, name)[1] for name in ("ProbeForce", "ProbePoint"))
+        pressed = palpate.press(model, point=place, force=force, radius=0.4)
+        vertices = np.arange(20, 40)
+        moved = palpate.array(pressed, "Displacement")[vertices]
+        noise = 1e-6 * np.sin(np.arange(moved.size)).reshape(moved.shape)
+        seen = palpate.measurement_table(np.zeros(20), moved + noise, [force], marker_vertices=vertices,
+                                         contacts=[place], radius=0.4)
+        again = palpate.identify(held_sphere(), seen, folds=0)
+        young = palpate.array(again, "YoungsModulus")[0]
+        self.assertLess(abs(young / palpate.array(model, "YoungsModulus")[0] - 1), 1e-3)
+
+    def test_outliers_are_named_and_left_out(self):
+        spoilt = table(outliers=0.05)
+        model = palpate.identify(held_sphere(), spoilt)
+        exact = palpate.array(table(noise=0), "MeasuredDisplacement")
+        wrong = np.abs(palpate.array(spoilt, "MeasuredDisplacement") - exact).max(axis=1) > 0.1 * exact.max()
+        marked = palpate.array(model, "MeasurementOutlier").astype(bool)
+        self.assertGreater(wrong.sum(), 5)
+        self.assertTrue(marked[wrong].all())
+        self.assertLess(abs(palpate.array(model, "YoungsModulus")[0] / YOUNG - 1), 0.01)
+        self.assertEqual(palpate.array(model, "ProbeOutliers").sum(), marked.sum())
+
+    def test_a_support_that_yields_is_told_from_a_soft_body(self):
+        whole = palpate.precompute(held_sphere(), young=YOUNG, poisson=POISSON,
+                                   columns=np.ones(162, bool), estimate_error=False)
+        seen = palpate.simulate_measurements(whole, radius=0.4, yield_length=0.2)
+        model = palpate.identify(held_sphere(), seen, yielding_support=True, folds=0)
+        length = palpate.array(model, "SupportYieldLength")[0]
+        self.assertLess(abs(length - 0.2), 0.04)
+        self.assertLess(abs(palpate.array(model, "YoungsModulus")[0] / YOUNG - 1), 0.02)
+        # Its Green's functions serve that foundation: a press yields as the rig's body did.
+        self.assertEqual(len(palpate.greens_function_nodes(model)), 162)
+
+    def test_a_frame_of_the_rigs_own_is_registered(self):
+        kidney = palpate.refine(palpate.read(palpate.example("kidney")), levels=1)
+        body = palpate.precompute(kidney, young=YOUNG, poisson=POISSON, estimate_error=False)
+        turned = palpate.simulate_measurements(body, rotation=(2, -3, 4), translation=(1e-3, 0, -1e-3),
+                                               markers=80)
+        model = palpate.identify(kidney, turned, register=True, folds=0)
+        self.assertLess(abs(palpate.array(model, "YoungsModulus")[0] / YOUNG - 1), 0.02)
+        self.assertLess(palpate.array(model, "RegistrationDistance")[0], 1e-6)
+        rotation = palpate.array(model, "RegistrationRotation").reshape(3, 3)
+        self.assertLess(abs(np.degrees(np.arccos((np.trace(rotation) - 1) / 2)) - 29**0.5), 0.01)
+
+    def test_units_are_told_and_mistakes_found(self):
+        place = points_of(held_sphere())[[0, 5]]
+        at = dict(marker_vertices=[0, 5], contact_vertices=[0], radius=0.4)
+        self.refused("times the size of the body", palpate.identify, held_sphere(),
+                     palpate.measurement_table([0, 0], [[0, 0, -5], [0, 1, 0]], [[0, 0, -1]], **at))
+        at = dict(markers=1e3 * place, contacts=[1e3 * place[0]], radius=400)
+        self.refused("times 0.001 it would be on it", palpate.identify, held_sphere(),
+                     palpate.measurement_table([0, 0], [[0, 0, -5], [0, 1, 0]], [[0, 0, -1]], **at))
+
+    def test_calls_that_make_no_sense_are_refused(self):
+        self.refused("measurements must be a file or a vtkPolyData", palpate.identify, held_sphere(), 3)
+        self.refused("has no field array ProbeForce", palpate.identify, held_sphere(), held_sphere())
+        self.refused("not both", palpate.identify, held_sphere(), table(), poisson=0.3,
+                     poisson_range=(0, 0.4))
+        self.refused("within -1 < lower < upper < 0.5", palpate.identify, held_sphere(), table(),
+                     poisson_range=(0.4, 0.3))
+        self.refused("no unit of length 'miles'", palpate.identify, held_sphere(), table(),
+                     length_unit="miles")
+        self.refused("there is no loss 'l1'", palpate.identify, held_sphere(), table(), loss="l1")
+        self.refused("there is no such file", palpate.identify, held_sphere(), self.folder / "no.csv")
+        self.refused("give one of the two", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 0, 1]],
+                     contact_vertices=[0])
+        self.refused("forces must be", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 1]],
+                     contact_vertices=[0], marker_vertices=[0])
+        self.refused("noise must be at least 0", palpate.simulate_measurements, body(), noise=-1)
+        self.refused("tuple 1 repeats tuple 0", palpate.identify, held_sphere(),
+                     palpate.measurement_table([0, 0], [[0, 0, 1e-3]] * 2, [[0, 0, 1]],
+                                               contact_vertices=[0], marker_vertices=[7, 7]))
+
+    def test_progress_aborts(self):
+        stages = set()
+        palpate.identify(held_sphere(), table(), progress=lambda _, stage: stages.add(stage))
+        self.assertIn("cross-validate", stages)
+        with self.assertRaises(palpate.Aborted):
+            palpate.identify(held_sphere(), table(), progress=lambda *_: False)
+
+    def test_every_example_runs(self):
+        failed, attempted = doctest.testmod(identification)
+        self.assertEqual(failed, 0)
+        self.assertGreater(attempted, 8)
+
+
+class Filter(unittest.TestCase):
+    def test_needs_one_table(self):
+        filter = palpate.vtkGreensFunctionIdentification()
+        filter.SetInputData(body())
+        self.assertIn("from a file or from the third input", failure_of(filter))
+        filter.SetInputData(2, table())
+        filter.SetPatchColumns(True)
+        self.assertIn("leave columns and patch columns out", failure_of(filter))
+
+
+class Program(Folder):
+    def made(self, *options):
+        """A body, its table, and the surface to be identified, as files."""
+        model, data, surface = (self.folder / name for name in ("body.vtp", "rig.csv", "sphere.vtp"))
+        palpate.write(body(), model)
+        palpate.write(held_sphere(), surface)
+        done = run("measure", model, data, "--radius", 0.4, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return surface, data
+
+    def test_measures_and_identifies(self):
+        surface, data = self.made()
+        self.assertEqual(len(data.read_text().splitlines()), 251)
+        out = self.folder / "model.vtp"
+        done = run("identify", surface, out, "--measurements", data)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        young = float(re.search(r"Young's modulus, Pa +(\S+) \+- ", done.stdout)[1])
+        self.assertLess(abs(young / YOUNG - 1), 0.01)
+        self.assertRegex(done.stdout, r"probe 3 +residual \S+ %, \S+ m, \d+ outliers")
+        self.assertRegex(done.stdout, r"error at probes left out +\S+ %")
+        self.assertRegex(done.stdout, r"correlation +\S+ of Poisson's ratio with Young's modulus")
+        info = run("info", out)
+        self.assertEqual(info.returncode, 0, info.stderr)
+        pressed = run("press", out, self.folder / "p.vtp", "--at", 0, 0, 1, "--force", 0, 0, -1,
+                      "--radius", 0.4)
+        self.assertEqual(pressed.returncode, 0, pressed.stderr)
+        np.testing.assert_array_equal(
+            palpate.array(palpate.read(out), "MeasuredDisplacement"),
+            palpate.array(identified(), "MeasuredDisplacement"))
+
+    def test_tables_may_be_polydata_in_other_units(self):
+        surface, data = self.made()
+        rows = [line.split(",") for line in data.read_text().splitlines()]
+        lengths = [i for i, name in enumerate(rows[0])
+                   if name in ("radius", "x", "y", "z") or name[:2] in ("u_", "co")]
+        for row in rows[1:]:
+            for i in lengths:
+                row[i] = repr(1e3 * float(row[i])) if row[i] else ""
+        (self.folder / "mm.csv").write_text("\n".join(map(",".join, rows)))
+        out = self.folder / "model.vtp"
+        in_mm = run("identify", surface, out, "--measurements", self.folder / "mm.csv",
+                    "--length-unit", "mm", "--folds", 0, "--no-estimate")
+        self.assertEqual(in_mm.returncode, 0, in_mm.stderr)
+        young = palpate.array(palpate.read(out), "YoungsModulus")[0]
+        self.assertAlmostEqual(young / palpate.array(identified(), "YoungsModulus")[0], 1, places=6)
+        model, polydata = self.folder / "body.vtp", self.folder / "rig.vtp"
+        self.assertEqual(run("measure", model, polydata, "--radius", 0.4).returncode, 0)
+        done = run("identify", surface, out, "--measurements", polydata, "--folds", 0, "--no-estimate")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(
+            palpate.array(palpate.read(out), "YoungsModulus")[0] / young, 1, places=6)
+
+    def test_refuses_in_one_line_and_leaves_no_file(self):
+        surface, data = self.made("--markers", 4, "--probes", 2)
+        out = self.folder / "model.vtp"
+        lines = data.read_text().splitlines()
+        broken = self.folder / "broken.csv"
+        for text, sentence in (
+                ("\n".join(lines[:3] + [lines[1]]), "broken.csv, line 4 repeats line 2"),
+                ("\n".join(lines).replace("u_z", "w"), "line 1: there is no column 'w'"),
+                (lines[0] + "\n", "there is no measured displacement")):
+            broken.write_text(text)
+            done = run("identify", surface, out, "--measurements", broken)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(sentence, done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1)
+            self.assertFalse(out.exists())
+        done = run("measure", self.folder / "body.vtp", out, "--tilt", 100)
+        self.assertIn("0 to 90 degrees, not 100", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
