@@ -123,6 +123,10 @@ bool isVolumeFile(const std::string& path) {
   return extension == ".vtu" || extension == ".vtk";
 }
 
+bool isPolydata(const Options& o) {
+  return std::filesystem::path(o.measurements).extension() == ".vtp";
+}
+
 /// Sets the surface with its support, and what fills it if the input does.
 void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
   vtkNew<vtkReferenceBoundaryConditions> conditions;
@@ -141,7 +145,7 @@ void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
     conditions->SetInputData(readSurface(o.input));
   }
   filter->SetInputData(run(conditions));
-  if (std::filesystem::path(o.measurements).extension() == ".vtp")
+  if (isPolydata(o))
     filter->SetInputData(2, readSurface(o.measurements));
   else
     filter->SetMeasurementFileName(o.measurements.c_str());
@@ -200,22 +204,23 @@ void printProbes(vtkPolyData* model) {
   }
 }
 
-/// Which displacements were left out, by their place in the table.
-std::string outliersOf(vtkPolyData* model) {
+/// Which displacements were left out, by their lines.
+std::string outliersOf(vtkPolyData* model, const std::string& rowWord) {
   constexpr int most = 12;
   vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
   std::string text;
   int count = 0;
   for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
     if (outliers->GetComponent(i, 0) != 0 && ++count <= most)
-      text += (count > 1 ? ", " : "") + std::to_string(i + 1);
+      text += (count > 1 ? ", " : "") + number(component(model, "MeasurementRow", i), 9);
   if (count > most) text += " and " + std::to_string(count - most) + " more";
-  return count == 0 ? "none"
-                    : std::to_string(count) + " of " +
-                          std::to_string(outliers->GetNumberOfTuples()) + ": displacements " + text;
+  return count == 0
+             ? "none"
+             : std::to_string(count) + " of " + std::to_string(outliers->GetNumberOfTuples()) +
+                   ": " + rowWord + " " + text;
 }
 
-void printModel(vtkPolyData* model) {
+void printModel(vtkPolyData* model, const std::string& rowWord) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
   printParameters(model);
@@ -226,7 +231,7 @@ void printModel(vtkPolyData* model) {
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     printRow("noise over that given", number(misfit, 3));
   printProbes(model);
-  printRow("outliers", outliersOf(model));
+  printRow("outliers", outliersOf(model, rowWord));
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
     printRow("error at probes left out", percent(error));
   printRow("error of interpolation", percent(fieldNumber(model, "ResponseInterpolationError", -1)));
@@ -248,7 +253,7 @@ void addIdentify(CLI::App& program) {
     setInput(filter, *options);
     const auto model = run(filter);
     writeSurface(model, options->output);
-    printModel(model);
+    printModel(model, isPolydata(*options) ? "tuples" : "lines");
     printWarnings(model);
   });
 }

@@ -202,6 +202,17 @@ class Program(Folder):
             palpate.array(palpate.read(out), "MeasuredDisplacement"),
             palpate.array(identified(), "MeasuredDisplacement"))
 
+    def test_names_outliers_by_line(self):
+        surface, data = self.made()
+        lines = data.read_text().splitlines()
+        row = lines[99].split(",")
+        row[-1] = repr(float(row[-1]) + 0.02)
+        lines[99] = ",".join(row)
+        data.write_text("\n".join(lines))
+        done = run("identify", surface, self.folder / "model.vtp", "--measurements", data, "--no-estimate")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"outliers +\d+ of 250: lines .*\b100\b")
+
     def test_tables_may_be_polydata_in_other_units(self):
         surface, data = self.made()
         rows = [line.split(",") for line in data.read_text().splitlines()]

@@ -154,6 +154,7 @@ constexpr const char* MeasurementProbe = "MeasurementProbe";   // int, which pro
 constexpr const char* MeasurementVertex = "MeasurementVertex"; // id of the marker, or -1 for that below
 constexpr const char* MeasurementPoint = "MeasurementPoint";   // 3, of the marker at rest, m
 constexpr const char* MeasuredDisplacement = "MeasuredDisplacement"; // 3, m, NaN where not measured
+constexpr const char* MeasurementRow = "MeasurementRow"; // int, of the file's line, for people; optional
 constexpr const char* MeasurementDeviation = "MeasurementDeviation"; // 1 or 3, standard, m, optional
 // A tuple a probe:
 constexpr const char* ProbeNames = "ProbeNames";   // strings, optional
@@ -204,7 +205,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,
   StageNames, Warnings };
 /// Field data of one identification.
-constexpr const char* IdentificationResults[] = { MeasurementProbe, MeasurementVertex, MeasurementPoint,
+constexpr const char* IdentificationResults[] = { MeasurementProbe, MeasurementRow, MeasurementVertex, MeasurementPoint,
   MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint, ProbeRadius, ProbeForce,
   MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual, ProbeOutliers,
   IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations, YoungsModulusDeviation,

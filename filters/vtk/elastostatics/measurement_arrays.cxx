@@ -208,13 +208,14 @@ void setMeasurements(vtkPolyData* table, const Measurements& measurements)
   removeIdentification(table);
   const Eigen::Index count = measurements.displacements.size(), probes = measurements.probes.size();
   std::vector<RestPlace> markers, contacts;
-  std::vector<double> probeOf, radii;
+  std::vector<double> probeOf, rows, radii;
   std::vector<std::string> names;
   Eigen::Matrix3Xd displacements(3, count), deviations(3, count), forces(3, probes);
   for (Eigen::Index i = 0; i < count; ++i)
   {
     const MeasuredDisplacement& measured = measurements.displacements[i];
     probeOf.push_back(measured.probe);
+    rows.push_back(measured.row);
     markers.push_back(measured.marker);
     displacements.col(i) = measured.displacement;
     deviations.col(i) = measured.deviation;
@@ -228,6 +229,7 @@ void setMeasurements(vtkPolyData* table, const Measurements& measurements)
     forces.col(p) = probe.force;
   }
   setColumn(table, arrays::MeasurementProbe, probeOf);
+  setColumn(table, arrays::MeasurementRow, rows);
   setPlaces(table, arrays::MeasurementVertex, arrays::MeasurementPoint, markers);
   setVectorsWithGaps(table, arrays::MeasuredDisplacement, displacements);
   if (measurements.hasDeviations())
