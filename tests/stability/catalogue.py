@@ -12,7 +12,7 @@ from pathlib import Path
 PAGE = Path(__file__).with_name("README.md")
 BEGIN, END = "<!-- catalogue begin -->\n", "<!-- catalogue end -->\n"
 AREAS = ("material", "scale", "mesh", "edges", "thin", "supports", "capacitance", "masks", "stiffness",
-         "half-space", "shells", "files")
+         "half-space", "shells", "identification", "files")
 HEAD = ("area", "case", "what could go wrong", "quantity", "measured", "bound")
 MEASURED = HEAD.index("measured")
 

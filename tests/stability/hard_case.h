@@ -25,7 +25,7 @@ namespace palpate::test {
 class HardCase {
  public:
   /// @param area    material, scale, mesh, edges, thin, supports, capacitance, masks, stiffness,
-  ///                half-space or shells.
+  ///                half-space, shells or identification.
   /// @param name    what is hard.
   /// @param danger  what could go wrong.
   HardCase(std::string area, std::string name, std::string danger)
