@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <Eigen/LU>
+#include <random>
 
+#include "identification/robust_statistics.h"
 #include "progress.h"
 #include "support/refusals.h"
 
@@ -126,6 +128,21 @@ TEST(LeastSquares, AbortsAndPassesOnWhatIsThrown) {
 TEST(LeastSquares, LossesHaveNames) {
   EXPECT_EQ(robustLossNamed("cauchy"), RobustLoss::Cauchy);
   EXPECT_TRUE(isRefused([] { robustLossNamed("l1"); }, "there is no loss 'l1': choose one of"));
+}
+
+TEST(RobustStatistics, QuantilesAreThoseOfTables) {
+  EXPECT_NEAR(chiSquaredOf(0.05), 7.814727903251178, 1e-9);
+  EXPECT_NEAR(chiSquaredOf(1e-3), 16.26623619623813, 1e-9);
+}
+
+TEST(RobustStatistics, AThirdOfWrongValuesChangesTheDeviationLittle) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0, 2);
+  std::vector<double> sizes;
+  for (int i = 0; i < 20000; ++i) sizes.push_back(std::abs(normal(random)));
+  EXPECT_NEAR(medianDeviation(sizes), 2, 0.05);  // known to 1 %
+  for (int i = 0; i < 6000; ++i) sizes[3 * i] = 1e6;
+  EXPECT_LT(medianDeviation(sizes), 4);
 }
 
 }  // namespace

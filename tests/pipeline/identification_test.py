@@ -74,6 +74,14 @@ class Package(Folder):
         pressed = palpate.press(model, point=(0, 0, 1), force=(0, 0, -10), radius=0.4)
         self.assertTrue(np.isfinite(palpate.array(pressed, "Displacement")).all())
 
+    def test_another_material_is_not_said_to_be_identified(self):
+        again = palpate.precompute(identified(), young=1e3, poisson=0.1, estimate_error=False)
+        for name in ("IdentifiedParameters", "YoungsModulusDeviation", "MeasurementResidual"):
+            with self.assertRaises(KeyError):
+                palpate.array(again, name)
+        self.assertEqual(palpate.array(again, "MeasuredDisplacement").shape, (250, 3))
+        self.assertNotIn("identified", palpate.array(again, "GreensFunctionSource")[0])
+
     def test_a_press_seen_at_vertices_gives_its_modulus_back(self):
         model = identified()
         force, place = (palpate.array(model, name)[1] for name in ("ProbeForce", "ProbePoint"))

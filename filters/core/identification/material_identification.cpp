@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "identification/material_model.h"
 #include "identification/observability.h"
+#include "identification/robust_statistics.h"
 #include "model/plausible_modulus.h"
 #include "sentence.h"
 
@@ -20,24 +22,6 @@ constexpr double kFalseOutliers = 0.01;  // expected in a table without any
 constexpr double kLargestMisfit = 3;     // standard deviations of chi squared
 constexpr int kScalings = 5, kTrimmings = 10;
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-/// The value that chi squared of three degrees of freedom exceeds with a probability.
-double chiSquaredOf(double probability) {
-  const auto beyond = [](double x) {
-    return std::erfc(std::sqrt(x / 2)) + std::sqrt(2 * x / M_PI) * std::exp(-x / 2);
-  };
-  double low = 0, high = 1000;
-  for (int i = 0; i < 100; ++i)
-    (beyond((low + high) / 2) > probability ? low : high) = (low + high) / 2;
-  return high;
-}
-
-/// The standard deviation of values about 0 by their median size.
-double medianDeviation(std::vector<double> sizes) {
-  const auto middle = sizes.begin() + sizes.size() / 2;
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.482602218505602 * *middle;
-}
 
 }  // namespace
 
@@ -91,6 +75,7 @@ class MaterialIdentifier::Fit {
   void describe(MaterialIdentification& result) const;
   void describeProbes(MaterialIdentification& result) const;
   void warn(MaterialIdentification& result) const;
+  Eigen::VectorXd withoutFold(const Eigen::VectorXd& kept) const;
   double holdOutError() const;
 
   const Parts& parts_;
@@ -326,6 +311,17 @@ void MaterialIdentifier::Fit::warn(MaterialIdentification& result) const {
                                        " only, which is not small beside the noise"));
 }
 
+/// The unknowns by what is kept; none where that does not lead to any.
+Eigen::VectorXd MaterialIdentifier::Fit::withoutFold(const Eigen::VectorXd& kept) const {
+  try {
+    return solve(unknowns_, kept / scale_, RobustLoss::None).parameters;
+  } catch (const Aborted&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 /// The relative error of displacements under probes that the material was not identified from; of
 /// one probe, of markers.
 double MaterialIdentifier::Fit::holdOutError() const {
@@ -342,9 +338,10 @@ double MaterialIdentifier::Fit::holdOutError() const {
       if ((probes > 1 ? measurements_.displacements[i].probe : i) % folds == fold)
         kept.segment<3>(3 * i).setZero();
     if (countOf(kept) <= model_.count()) return -1;
-    const LeastSquaresSolution without = solve(unknowns_, kept / scale_, RobustLoss::None);
+    const Eigen::VectorXd without = withoutFold(kept);
+    if (without.size() == 0) return -1;
     const Eigen::ArrayXd held = (weights.array() > 0 && kept.array() == 0).cast<double>();
-    error += (held * residualsAt(without.parameters).array()).square().sum();
+    error += (held * residualsAt(without).array()).square().sum();
     size += (held * measured_.array()).square().sum();
   }
   return size > 0 ? std::sqrt(error / size) : -1;

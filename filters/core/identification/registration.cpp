@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "identification/least_squares.h"
+#include "identification/robust_statistics.h"
 #include "mesh/surface_locator.h"
 #include "sentence.h"
 
@@ -120,8 +121,7 @@ class Alignment {
 double medianScale(const Eigen::VectorXd& residuals, double least) {
   std::vector<double> sizes;
   for (Eigen::Index i = 0; i < residuals.size(); i += 3) sizes.push_back(std::abs(residuals[i]));
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  return std::max(1.4826 * sizes[sizes.size() / 2], least);
+  return std::max(medianDeviation(std::move(sizes)), least);
 }
 
 void requireDetermined(const Eigen::MatrixXd& sensitivity) {

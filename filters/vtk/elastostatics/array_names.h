@@ -203,15 +203,15 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,
-  StageNames, Warnings };
-/// Field data of one identification.
-constexpr const char* IdentificationResults[] = { MeasurementProbe, MeasurementRow, MeasurementVertex, MeasurementPoint,
-  MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint, ProbeRadius, ProbeForce,
-  MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual, ProbeOutliers,
-  IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations, YoungsModulusDeviation,
-  PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit, HoldOutError,
-  ResponseInterpolationError, RegistrationRotation, RegistrationTranslation, RegistrationDeviation,
-  RegistrationDistance };
+  StageNames, Warnings, MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual,
+  ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
+  YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
+  HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
+  RegistrationDeviation, RegistrationDistance };
+/// Field data of one table of measurements.
+constexpr const char* MeasurementTable[] = { MeasurementProbe, MeasurementRow, MeasurementVertex,
+  MeasurementPoint, MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint,
+  ProbeRadius, ProbeForce };
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
   ContactRotation, ContactCondition, LargestDisplacementGradient, ContactPoint, ElasticContactPoint,

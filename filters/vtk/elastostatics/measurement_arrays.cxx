@@ -205,7 +205,10 @@ Measurements measurementsOf(vtkPolyData* table, double length, double force)
 
 void setMeasurements(vtkPolyData* table, const Measurements& measurements)
 {
-  removeIdentification(table);
+  for (const char* name : arrays::MeasurementTable)
+  {
+    table->GetFieldData()->RemoveArray(name);
+  }
   const Eigen::Index count = measurements.displacements.size(), probes = measurements.probes.size();
   std::vector<RestPlace> markers, contacts;
   std::vector<double> probeOf, rows, radii;
@@ -309,13 +312,5 @@ void setRegistration(vtkPolyData* surface, const Registration& registration)
   setFieldVector(surface, arrays::RegistrationTranslation, registration.translation);
   setFieldNumbers(surface, arrays::RegistrationDeviation, deviations);
   setFieldNumber(surface, arrays::RegistrationDistance, registration.distance);
-}
-
-void removeIdentification(vtkPolyData* surface)
-{
-  for (const char* name : arrays::IdentificationResults)
-  {
-    surface->GetFieldData()->RemoveArray(name);
-  }
 }
 } // namespace palpate::convert

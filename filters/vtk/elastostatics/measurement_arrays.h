@@ -23,13 +23,11 @@ Measurements measurementsOf(vtkPolyData* table, double length = 1, double force 
 /// Adds a table, in place of one that is there.
 void setMeasurements(vtkPolyData* table, const Measurements& measurements);
 
-/// Adds what was identified, but for the material itself.
+/// Adds what was identified, but for the material itself; whatever takes the place of these Green's
+/// functions takes it away.
 void setIdentification(
   vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements);
 void setRegistration(vtkPolyData* surface, const Registration& registration);
-
-/// Takes away a table and what was identified from it.
-void removeIdentification(vtkPolyData* surface);
 } // namespace palpate::convert
 
 #endif
