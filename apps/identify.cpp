@@ -33,7 +33,7 @@ struct Options {
   double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4, placeTolerance = 0.02;
   std::vector<double> poissonRange;
   bool yieldingSupport = false, isRegistered = false, noEstimate = false;
-  int folds = 5, threads = 0;
+  int folds = 5, nextProbes = 0, threads = 0;
 };
 
 void addUnknowns(CLI::App& command, Options& o) {
@@ -107,6 +107,10 @@ void addOptions(CLI::App& command, Options& o) {
                   "How far a place may be from the surface, over its diagonal")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command
+      .add_option("--next-probes", o.nextProbes,
+                  "Propose so many further probes that would tell most")
+      ->check(CLI::Range(0, 100));
   command.add_flag("--no-estimate", o.noEstimate, "Do not estimate the model's own error");
   command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
   command.footer(
@@ -162,6 +166,7 @@ void set(vtkGreensFunctionIdentification* filter, const Options& o) {
   filter->SetRegister(o.isRegistered);
   filter->SetLoss(o.loss == "huber" ? 1 : o.loss == "cauchy" ? 2 : o.loss == "tukey" ? 3 : 0);
   filter->SetNumberOfFolds(o.folds);
+  filter->SetNumberOfNextProbes(o.nextProbes);
   filter->SetInterpolationTolerance(o.tolerance);
   filter->SetPlaceTolerance(o.placeTolerance);
   filter->SetEstimateError(!o.noEstimate);
@@ -220,6 +225,23 @@ std::string outliersOf(vtkPolyData* model, const std::string& rowWord) {
                    ": " + rowWord + " " + text;
 }
 
+/// Probes that would tell most, and the deviations with all up to each.
+void printNextProbes(vtkPolyData* model) {
+  vtkDataArray* vertices = model->GetFieldData()->GetArray("NextProbeVertex");
+  const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames");
+  for (vtkIdType i = 0; vertices && i < vertices->GetNumberOfTuples(); ++i) {
+    double place[3], force[3];
+    model->GetPoint(static_cast<vtkIdType>(vertices->GetComponent(i, 0)), place);
+    model->GetFieldData()->GetArray("NextProbeForce")->GetTuple(i, force);
+    std::string text = "at vertex " + number(vertices->GetComponent(i, 0), 9) + " (" +
+                       vectorText(place) + "), force " + vectorText(force) + ":";
+    for (std::size_t p = 0; p < names.size(); ++p)
+      text += (p > 0 ? ", " : " ") + names[p] + " +- " +
+              number(component(model, "NextProbeDeviations", i, static_cast<int>(p)), 2);
+    printRow("next probe " + std::to_string(i + 1), text);
+  }
+}
+
 void printModel(vtkPolyData* model, const std::string& rowWord) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
@@ -235,6 +257,7 @@ void printModel(vtkPolyData* model, const std::string& rowWord) {
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
     printRow("error at probes left out", percent(error));
   printRow("error of interpolation", percent(fieldNumber(model, "ResponseInterpolationError", -1)));
+  printNextProbes(model);
   if (const double error = fieldNumber(model, "ErrorEstimate", -1); error >= 0)
     printRow("error of the model itself",
              percent(error) + " (what the mesh may add to Young's modulus)");

@@ -32,7 +32,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
              volume=None, largest_ratio=10.0, yielding_support=False, register=False, loss="cauchy",
              folds=5, length_unit="m", force_unit="N", interpolation_tolerance=1e-4,
              place_tolerance=0.02, smooth_angle=30.0, reciprocal=True, estimate_error=True, threads=0,
-             progress=None):
+             next_probes=0, progress=None):
     """Identify the material of a body from displacements under known forces.
 
     Parameters
@@ -73,6 +73,10 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
         How far a place may be from the surface, over its diagonal.
     smooth_angle, reciprocal, estimate_error, threads
         As in `precompute`.
+    next_probes : int
+        Propose so many further probes, of normal and tilted forces at sixteen places, that would tell
+        most: `NextProbeVertex`, `NextProbeForce`, and `NextProbeDeviations`, which the parameters would
+        have with all up to each. Takes about as long again.
     progress : callable or bool, optional
         Called as progress(fraction, stage); return False to abort. True shows a bar.
 
@@ -132,6 +136,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     filter.SetRegister(flag(register, "register"))
     filter.SetLoss(choice(loss, LOSSES, "loss"))
     filter.SetNumberOfFolds(whole_number(folds, "folds", 1000))
+    filter.SetNumberOfNextProbes(whole_number(next_probes, "next_probes", 100))
     filter.SetInterpolationTolerance(number(interpolation_tolerance, "interpolation_tolerance"))
     filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))
     filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))

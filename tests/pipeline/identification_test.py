@@ -157,6 +157,18 @@ class Package(Folder):
                      palpate.measurement_table([0, 0], [[0, 0, 1e-3]] * 2, [[0, 0, 1]],
                                                contact_vertices=[0], marker_vertices=[7, 7]))
 
+    def test_next_probes_make_what_is_known_better(self):
+        model = palpate.identify(held_sphere(), table(), next_probes=3, folds=0)
+        before = palpate.array(model, "IdentifiedParameters")[:, 1]
+        after = palpate.array(model, "NextProbeDeviations")
+        self.assertEqual(after.shape, (3, 2))
+        self.assertTrue((after[0] < before * 1.05).all())
+        self.assertTrue((np.diff(after, axis=0) <= 0).all())
+        self.assertFalse(lower_cap(held_sphere())[palpate.array(model, "NextProbeVertex")].any())
+        np.testing.assert_allclose(
+            np.linalg.norm(palpate.array(model, "NextProbeForce"), axis=1),
+            np.linalg.norm(palpate.array(model, "ProbeForce"), axis=1).mean())
+
     def test_progress_aborts(self):
         stages = set()
         palpate.identify(held_sphere(), table(), progress=lambda _, stage: stages.add(stage))
@@ -194,13 +206,14 @@ class Program(Folder):
         surface, data = self.made()
         self.assertEqual(len(data.read_text().splitlines()), 251)
         out = self.folder / "model.vtp"
-        done = run("identify", surface, out, "--measurements", data)
+        done = run("identify", surface, out, "--measurements", data, "--next-probes", 2)
         self.assertEqual(done.returncode, 0, done.stderr)
         young = float(re.search(r"Young's modulus, Pa +(\S+) \+- ", done.stdout)[1])
         self.assertLess(abs(young / YOUNG - 1), 0.01)
         self.assertRegex(done.stdout, r"probe 3 +residual \S+ %, \S+ m, \d+ outliers")
         self.assertRegex(done.stdout, r"error at probes left out +\S+ %")
         self.assertRegex(done.stdout, r"correlation +\S+ of Poisson's ratio with Young's modulus")
+        self.assertRegex(done.stdout, r"next probe 2 +at vertex \d+ \(.*\), force .*: Young's modulus \+- \S+, P")
         info = run("info", out)
         self.assertEqual(info.returncode, 0, info.stderr)
         pressed = run("press", out, self.folder / "p.vtp", "--at", 0, 0, 1, "--force", 0, 0, -1,

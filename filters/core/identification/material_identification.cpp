@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "identification/material_model.h"
+#include "identification/material_identifier_parts.h"
 #include "identification/observability.h"
 #include "identification/robust_statistics.h"
 #include "model/plausible_modulus.h"
@@ -24,12 +24,6 @@ constexpr int kScalings = 5, kTrimmings = 10;
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
-
-struct MaterialIdentifier::Parts {
-  IdentificationOptions options;
-  std::vector<Eigen::Vector3d> normals;
-  MaterialModel model;
-};
 
 /// One table against the model.
 class MaterialIdentifier::Fit {
@@ -347,40 +341,9 @@ double MaterialIdentifier::Fit::holdOutError() const {
   return size > 0 ? std::sqrt(error / size) : -1;
 }
 
-MaterialIdentifier::MaterialIdentifier(const ResponseOf& responseOf, const MeasuredSetup& setup,
-                                       double size, std::vector<Eigen::Vector3d> normals,
-                                       const IdentificationOptions& options,
-                                       const Progress& progress) {
-  Eigen::VectorXd lower, upper;
-  boxOf(options.unknowns, lower, upper);
-  ResponseInterpolation::Options how;
-  how.tolerance = options.interpolationTolerance;
-  how.foundationLength = options.unknowns.support ? 0.1 * size : 0;
-  const auto sample = [&](const Eigen::VectorXd& place, const Progress& part) {
-    return responseOf(materialsAt(options.unknowns, place), part);
-  };
-  ResponseInterpolation response(sample, lower, upper, setup, how, progress);
-  parts_.reset(
-      new Parts{options, std::move(normals),
-                MaterialModel(options.unknowns, size, std::move(response), setup.probeOf)});
-}
-
-MaterialIdentifier::~MaterialIdentifier() = default;
-
-Eigen::Matrix3Xd MaterialIdentifier::predict(const Eigen::VectorXd& parameters,
-                                             const Measurements& measurements) const {
-  const MaterialModel& model = parts_->model;
-  return model.displacements(model.unknownsOf(parameters), forcesOf(measurements), nullptr)
-      .reshaped(3, model.probeOf().size());
-}
-
 MaterialIdentification MaterialIdentifier::identify(const Measurements& measurements,
                                                     const Progress& progress) const {
   return Fit(*parts_, measurements, progress).result();
-}
-
-const ResponseInterpolation& MaterialIdentifier::response() const {
-  return parts_->model.response();
 }
 
 }  // namespace palpate

@@ -87,12 +87,23 @@ class MaterialIdentifier {
   MaterialIdentifier(const ResponseOf& responseOf, const MeasuredSetup& setup, double size,
                      std::vector<Eigen::Vector3d> normals, const IdentificationOptions& options,
                      const Progress& progress = {});
+  MaterialIdentifier(MaterialIdentifier&&) noexcept;
   ~MaterialIdentifier();
 
   /// The displacements that a material predicts, 3 by #markers.
   /// @param parameters  in the order of MaterialIdentification::parameters.
   Eigen::Matrix3Xd predict(const Eigen::VectorXd& parameters,
                            const Measurements& measurements) const;
+
+  /// Derivatives of these displacements by the unknowns: ln E of the first region, Poisson's ratio,
+  /// ln of the other regions' E over its, E / k over the body's size. 3 #markers by #unknowns.
+  Eigen::MatrixXd sensitivities(const Eigen::VectorXd& parameters,
+                                const Measurements& measurements) const;
+
+  /// Standard deviations of the parameters by an information matrix of the unknowns.
+  /// @throws std::invalid_argument if it is singular.
+  Eigen::VectorXd deviations(const Eigen::VectorXd& parameters,
+                             const Eigen::MatrixXd& information) const;
 
   /// @param measurements  of the setup's probes and markers.
   /// @throws std::invalid_argument with what the data cannot see and what would help, if they do

@@ -185,6 +185,11 @@ constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row b
 constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
 constexpr const char* RegistrationDeviation = "RegistrationDeviation"; // 6: about x, y, z (rad), along (m)
 constexpr const char* RegistrationDistance = "RegistrationDistance"; // places from the surface, m
+// A tuple a probe that was proposed: its vertex, its force, and the standard deviations that the
+// parameters would have with all up to it.
+constexpr const char* NextProbeVertex = "NextProbeVertex";         // id
+constexpr const char* NextProbeForce = "NextProbeForce";           // 3, on the body, N
+constexpr const char* NextProbeDeviations = "NextProbeDeviations"; // in the parameters' order and units
 
 // Cell data of a volume mesh of several materials, of vtkGreensFunctionIdentification.
 constexpr const char* MaterialRegion = "MaterialRegion"; // int from 0
@@ -207,7 +212,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
-  RegistrationDeviation, RegistrationDistance };
+  RegistrationDeviation, RegistrationDistance, NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of one table of measurements.
 constexpr const char* MeasurementTable[] = { MeasurementProbe, MeasurementRow, MeasurementVertex,
   MeasurementPoint, MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint,

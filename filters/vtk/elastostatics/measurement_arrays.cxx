@@ -293,6 +293,22 @@ void setIdentification(
   setFieldNumber(surface, arrays::ResponseInterpolationError, result.interpolationError);
 }
 
+void setNextProbes(
+  vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations)
+{
+  vtkNew<vtkIdTypeArray> vertices;
+  vertices->SetName(arrays::NextProbeVertex);
+  Eigen::Matrix3Xd forces(3, probes.size());
+  for (std::size_t i = 0; i < probes.size(); ++i)
+  {
+    vertices->InsertNextValue(probes[i].contact.vertex);
+    forces.col(i) = probes[i].force;
+  }
+  surface->GetFieldData()->AddArray(vertices);
+  setFieldVectors(surface, arrays::NextProbeForce, forces);
+  setTuples(surface, arrays::NextProbeDeviations, deviations);
+}
+
 void setRegistration(vtkPolyData* surface, const Registration& registration)
 {
   std::vector<double> rotation, deviations;

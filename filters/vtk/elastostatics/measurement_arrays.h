@@ -8,7 +8,7 @@
 #include "identification/measurements.h"
 #include "identification/registration.h"
 
-#include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -27,6 +27,10 @@ void setMeasurements(vtkPolyData* table, const Measurements& measurements);
 /// functions takes it away.
 void setIdentification(
   vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements);
+/// Adds probes that would tell most next.
+/// @param deviations  a row a probe: of all parameters with the probes up to it.
+void setNextProbes(
+  vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations);
 void setRegistration(vtkPolyData* surface, const Registration& registration);
 } // namespace palpate::convert
 

@@ -10,6 +10,7 @@
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "identification/measurement_file.h"
+#include "identification/next_probes.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "sentence.h"
@@ -33,6 +34,7 @@ vtkStandardNewMacro(vtkGreensFunctionIdentification);
 namespace
 {
 constexpr double SplitFrom = palpate::Elasticity::kSplitFrom;
+constexpr int CandidatePlaces = 16;
 
 /// Regions of the tetrahedra of a grid, in their order; empty where it has none.
 std::vector<int> regionsOf(vtkUnstructuredGrid* grid, int& count)
@@ -159,6 +161,7 @@ void vtkGreensFunctionIdentification::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "LargestRatio: " << this->LargestRatio << "\n"
      << indent << "InterpolationTolerance: " << this->InterpolationTolerance << "\n"
      << indent << "NumberOfFolds: " << this->NumberOfFolds << "\n"
+     << indent << "NumberOfNextProbes: " << this->NumberOfNextProbes << "\n"
      << indent << "PlaceTolerance: " << this->PlaceTolerance << "\n"
      << indent << "EstimateError: " << this->EstimateError << "\n";
 }
@@ -270,6 +273,52 @@ palpate::IdentificationOptions vtkGreensFunctionIdentification::OptionsFor(const
   return options;
 }
 
+palpate::MaterialIdentifier vtkGreensFunctionIdentification::IdentifierFor(const Body& body,
+  const palpate::Measurements& measurements, const palpate::Progress& progress) const
+{
+  const palpate::SurfaceMesh& mesh = body.Given.mesh();
+  const ProbedSurface probed =
+    probedSurface(body.Given, measurements, this->PlaceTolerance * mesh.diagonal());
+  return { [&](const std::vector<palpate::Material>& materials, const palpate::Progress& part)
+    {
+      const auto greens = body.Compute(materials, false, part).take();
+      return palpate::MeasuredResponse(*greens, probed.Setup, this->YieldingSupport);
+    },
+    probed.Setup, mesh.diagonal(), probed.Normals, this->OptionsFor(body), progress };
+}
+
+void vtkGreensFunctionIdentification::ProposeProbes(const Body& body,
+  const palpate::MaterialIdentifier& identifier, const palpate::Measurements& measurements,
+  const palpate::MaterialIdentification& result, vtkPolyData* output,
+  const palpate::Progress& progress) const
+{
+  const palpate::Measurements candidates = palpate::candidateProbes(
+    body.Given.mesh(), body.Given.conditions(), measurements, CandidatePlaces);
+  Eigen::VectorXd parameters(result.parameters.size());
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+  {
+    parameters[i] = result.parameters[i].value;
+  }
+  Eigen::MatrixXd present = Eigen::MatrixXd::Zero(parameters.size(), parameters.size());
+  for (const Eigen::MatrixXd& probe :
+    palpate::informationOfProbes(identifier, parameters, measurements, result.noise))
+  {
+    present += probe;
+  }
+  const palpate::MaterialIdentifier further = this->IdentifierFor(body, candidates, progress);
+  const std::vector<palpate::ChosenProbe> chosen = palpate::chooseProbes(present,
+    palpate::informationOfProbes(further, parameters, candidates, result.noise),
+    this->NumberOfNextProbes);
+  std::vector<palpate::Probe> probes;
+  Eigen::MatrixXd deviations(chosen.size(), parameters.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+  {
+    probes.push_back(candidates.probes[chosen[i].candidate]);
+    deviations.row(i) = identifier.deviations(parameters, chosen[i].information);
+  }
+  palpate::convert::setNextProbes(output, probes, deviations);
+}
+
 void vtkGreensFunctionIdentification::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
@@ -291,20 +340,13 @@ void vtkGreensFunctionIdentification::Compute(
       mesh, measurements, [&] { return this->ReportProgress(0, "register"); });
     measurements = palpate::registered(measurements, registration);
   }
-  const ProbedSurface probed =
-    probedSurface(body.Given, measurements, this->PlaceTolerance * mesh.diagonal());
-  const palpate::MaterialIdentifier identifier(
-    [&](const std::vector<palpate::Material>& materials, const palpate::Progress& part)
-    {
-      const auto greens = body.Compute(materials, false, part).take();
-      return palpate::MeasuredResponse(*greens, probed.Setup, this->YieldingSupport);
-    },
-    probed.Setup, mesh.diagonal(), probed.Normals, this->OptionsFor(body), progress.part(0, 0.7));
+  const palpate::MaterialIdentifier identifier =
+    this->IdentifierFor(body, measurements, progress.part(0, 0.6));
   const palpate::MaterialIdentification result =
-    identifier.identify(measurements, progress.part(0.7, 0.75));
+    identifier.identify(measurements, progress.part(0.6, 0.65));
 
   palpate::ComputedGreensFunctions greens =
-    body.Compute(result.materials, this->EstimateError, progress.part(0.75, 1));
+    body.Compute(result.materials, this->EstimateError, progress.part(0.65, 0.8));
   greens.info.source += palpate::sentence("; identified from ", measurements.displacements.size(),
     " displacements under ", measurements.probes.size(), " probes (",
     this->MeasurementFileName.empty() ? "a table" : this->MeasurementFileName, ")");
@@ -319,6 +361,10 @@ void vtkGreensFunctionIdentification::Compute(
   convert::setFieldNumber(output, palpate::arrays::PoissonRatio, material.poissonRatio());
   convert::shareGreensFunctions(computed, output, material.youngsModulus());
   convert::setIdentification(output, result, measurements);
+  if (this->NumberOfNextProbes > 0)
+  {
+    this->ProposeProbes(body, identifier, measurements, result, output, progress.part(0.8, 1));
+  }
   if (this->Register)
   {
     convert::setRegistration(output, registration);

@@ -33,7 +33,10 @@ class vtkUnstructuredGrid;
 namespace palpate
 {
 struct IdentificationOptions;
+struct MaterialIdentification;
 struct Measurements;
+class MaterialIdentifier;
+class Progress;
 }
 
 class PALPATEELASTOSTATICS_EXPORT vtkGreensFunctionIdentification : public vtkGreensFunctionsAlgorithm
@@ -133,6 +136,15 @@ public:
 
   ///@{
   /**
+   * Also propose so many further probes, of normal and tilted forces at sixteen places, that would tell most
+   * (palpate::chooseProbes). Takes about as long again. Default 0.
+   */
+  vtkSetClampMacro(NumberOfNextProbes, int, 0, 100);
+  vtkGetMacro(NumberOfNextProbes, int);
+  ///@}
+
+  ///@{
+  /**
    * Estimate the error of the identified model (palpate::estimateError): what the discretisation may add to
    * the standard deviations. Default on; not for several regions.
    */
@@ -155,10 +167,16 @@ private:
   palpate::Measurements MeasurementsOf(vtkPolyData* table) const;
   Body BodyOf(vtkPolyData* surface, vtkUnstructuredGrid* grid) const;
   palpate::IdentificationOptions OptionsFor(const Body& body) const;
+  palpate::MaterialIdentifier IdentifierFor(const Body& body, const palpate::Measurements& measurements,
+    const palpate::Progress& progress) const;
+  void ProposeProbes(const Body& body, const palpate::MaterialIdentifier& identifier,
+    const palpate::Measurements& measurements, const palpate::MaterialIdentification& result,
+    vtkPolyData* output, const palpate::Progress& progress) const;
 
   int Method = BOUNDARY_ELEMENTS;
   int Loss = CAUCHY;
   int NumberOfFolds = 5;
+  int NumberOfNextProbes = 0;
   double PoissonRatio = std::numeric_limits<double>::quiet_NaN();
   double PoissonRange[2] = { PoissonRatio, PoissonRatio };
   double LargestRatio = 10;
