@@ -29,7 +29,8 @@ struct Sphere {
     rig.radius = 0.5;
     rig.noise = 0;
     Measurements m = measuredOn(greens, model.mesh(), rig);
-    m.displacements[5].marker = {model.conditions().fixedNodes()[2], {}};  // on the support, too
+    m.displacements[5].marker = {model.conditions().fixedNodes()[2],
+                                 Eigen::Vector3d::Zero()};  // on the support, too
     return m;
   }();
   RigSetup rig = setupOn(model, measurements);

@@ -174,7 +174,7 @@ TEST(Measurements, PlacesOffTheSurfaceTellTheirUnit) {
 TEST(Measurements, PlacesAreTheNearestOnTheSurface) {
   const ElasticModel model = makeModel(icosphere(2), cap, 1e4, 0.3);
   Measurements m = oneRow();
-  m.displacements[0].marker = {17, {}};
+  m.displacements[0].marker = {17, Eigen::Vector3d::Zero()};
   const MeasuredPlaces places = placesOn(model.mesh(), model.conditions(), m, 0.05);
   EXPECT_EQ(placeOf(model.mesh(), places.markers[0]), model.mesh().points().col(17));
   EXPECT_NEAR((placeOf(model.mesh(), places.contacts[0]) - Eigen::Vector3d(0, 0, 1)).norm(), 0,
