@@ -7,6 +7,7 @@
 #include "conversion.h"
 #include "greens/dense_greens_functions.h"
 #include "halfspace/half_space_greens_functions.h"
+#include "inside_arrays.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/smooth_patches.h"
 #include "shell_arrays.h"
@@ -250,85 +251,6 @@ Domain domainOf(vtkPolyData* surface)
                                        : static_cast<Domain>(name - std::begin(DomainNames));
 }
 
-void addProbes(vtkPolyData* surface, const ProbeRows& probes)
-{
-  AlignedBuffer<double> rows(probes.rows().size());
-  std::copy_n(probes.rows().data(), rows.size(), rows.data());
-  addMatrix<vtkDoubleArray>(
-    surface, arrays::ProbeGreensFunctions, std::move(rows), static_cast<int>(probes.rows().rows()));
-  setFieldVectors(surface, arrays::ProbePoints, probes.points());
-  vtkNew<vtkDoubleArray> stiffness;
-  stiffness->SetName(arrays::ProbeStiffness);
-  stiffness->SetNumberOfComponents(36);
-  for (int point = 0; point < probes.count(); ++point)
-  {
-    stiffness->InsertNextTuple(probes.stiffness(point).data());
-  }
-  surface->GetFieldData()->AddArray(stiffness);
-}
-
-/// The numbers of a field array, a column a tuple.
-Eigen::MatrixXd fieldMatrix(vtkPolyData* surface, const char* name, vtkIdType rows, vtkIdType columns)
-{
-  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
-  if (!array || array->GetNumberOfComponents() != rows || array->GetNumberOfTuples() != columns)
-  {
-    throw std::invalid_argument(std::string("the field array '") + name + "' must hold " +
-      std::to_string(rows) + " by " + std::to_string(columns) + " values");
-  }
-  Eigen::MatrixXd values(rows, columns);
-  for (vtkIdType i = 0; i < columns; ++i)
-  {
-    array->GetTuple(i, values.col(i).data());
-  }
-  if (!values.allFinite())
-  {
-    throw std::invalid_argument(
-      std::string("the field array '") + name + "' holds values that are not finite");
-  }
-  return values;
-}
-
-/// Those that the surface carries; null without any.
-std::shared_ptr<const ProbeRows> probesOf(vtkPolyData* surface)
-{
-  vtkDataArray* places = surface->GetFieldData()->GetArray(arrays::ProbePoints);
-  if (!places || !hasField(surface, arrays::ProbeGreensFunctions))
-  {
-    return nullptr;
-  }
-  const vtkIdType count = places->GetNumberOfTuples();
-  const Eigen::MatrixXd stiffness = fieldMatrix(surface, arrays::ProbeStiffness, 36, count);
-  std::vector<Matrix6d> all;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    all.emplace_back(stiffness.col(i).reshaped(6, 6));
-  }
-  return std::make_shared<const ProbeRows>(fieldMatrix(surface, arrays::ProbePoints, 3, count),
-    fieldMatrix(
-      surface, arrays::ProbeGreensFunctions, 13 * count, 3 * surface->GetNumberOfPoints()),
-    std::move(all));
-}
-
-/// What the body's weight does, where the surface carries it.
-void readWeight(vtkPolyData* surface, GreensFunctionsInfo& info)
-{
-  if (hasField(surface, arrays::Density))
-  {
-    info.density = fieldNumber(surface, arrays::Density, "");
-  }
-  if (!hasField(surface, arrays::WeightResponse))
-  {
-    return;
-  }
-  const MatrixView weight = matrixOf(surface, arrays::WeightResponse, 1);
-  info.weightResponse.resize(3 * surface->GetNumberOfPoints(), 3);
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-  {
-    weight.array->GetTuple(axis, info.weightResponse.col(axis).data());
-  }
-}
-
 /// The Green's functions of the columns, from the matrices that the surface carries.
 std::shared_ptr<const GreensFunctions> storedGreensFunctions(
   vtkPolyData* surface, GreensFunctionsInfo info)
@@ -400,20 +322,7 @@ void setGreensFunctions(
   }
   surface->GetFieldData()->AddArray(nodes);
   addPatchColumns(surface, info, result, rows);
-  if (info.weightResponse.size() > 0)
-  {
-    AlignedBuffer<double> weight(info.weightResponse.size());
-    std::copy_n(info.weightResponse.data(), weight.size(), weight.data());
-    addMatrix<vtkDoubleArray>(surface, arrays::WeightResponse, std::move(weight), rows);
-  }
-  if (info.density > 0)
-  {
-    setFieldNumber(surface, arrays::Density, info.density);
-  }
-  if (info.probes)
-  {
-    addProbes(surface, *info.probes);
-  }
+  setInside(surface, info);
   vtkNew<vtkTypeUInt64Array> fingerprint;
   fingerprint->SetName(arrays::MeshFingerprint);
   fingerprint->InsertNextValue(info.fingerprint);
@@ -481,8 +390,7 @@ ServedModel servedModelOf(vtkPolyData* surface)
   info.reciprocal =
     fieldNumber(surface, arrays::GreensFunctionsReciprocal, "compute the Green's functions again") != 0;
   info.source = fieldString(surface, arrays::GreensFunctionSource);
-  readWeight(surface, info);
-  info.probes = probesOf(surface);
+  readInside(surface, info);
 
   const std::shared_ptr<const GreensFunctions> stored = info.domain == Domain::HalfSpace
     ? std::make_shared<HalfSpaceGreensFunctions>(std::move(info), *served.mesh)
