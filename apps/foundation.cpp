@@ -10,6 +10,7 @@
 #include <vtkPolyData.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -18,6 +19,8 @@
 
 namespace palpate::app {
 namespace {
+
+constexpr double kFarthest = 0.1;  // that a spring may be from its vertex, of the model's diagonal
 
 struct Options {
   std::string input, output;
@@ -42,6 +45,15 @@ void addSprings(vtkPolyData* surface, const std::vector<double>& springs) {
     const vtkIdType vertex = surface->FindPoint(const_cast<double*>(&springs[i]));
     if (vertex < 0)
       throw std::invalid_argument("--spring has no place: its coordinates are not finite");
+    const double* at = surface->GetPoint(vertex);
+    const double away =
+        std::hypot(at[0] - springs[i], at[1] - springs[i + 1], at[2] - springs[i + 2]);
+    if (!(away <= kFarthest * surface->GetLength()))
+      throw std::invalid_argument("the --spring at " + vectorText(&springs[i]) + " is " +
+                                  number(away, 3) + " m from the nearest vertex, of a model of " +
+                                  number(surface->GetLength(), 3) +
+                                  " m: are its coordinates in metres?");
+    printRow("spring at vertex", std::to_string(vertex));
     array->SetValue(vertex, array->GetValue(vertex) + springs[i + 3]);
   }
   surface->GetPointData()->AddArray(array);
@@ -72,10 +84,10 @@ void addFoundation(CLI::App& program) {
       "  palpate precompute kidney.vtp model.vtp --support-columns\n"
       "  palpate foundation model.vtp soft.vtp --stiffness 2e6 --shear 5e5");
   command->callback([options, command] {
-    for (const char* option : {"--stiffness", "--shear"})
-      if (command->count(option) > 0 &&
-          !((option == std::string("--shear") ? options->shear : options->stiffness) >= 0))
-        throw std::invalid_argument(std::string(option) + " must be at least 0 Pa/m");
+    if (command->count("--stiffness") > 0 && !(options->stiffness > 0))
+      throw std::invalid_argument("--stiffness must be above 0 Pa/m: leave it out for none");
+    if (command->count("--shear") > 0 && !(options->shear >= 0))
+      throw std::invalid_argument("--shear must be at least 0 Pa/m");
     if (command->count("--shear") > 0 && command->count("--stiffness") == 0)
       throw std::invalid_argument("--shear goes with --stiffness: give that, too");
     const auto surface = readSurface(options->input);

@@ -18,6 +18,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "finite_check.h"
 #include "support_options.h"
 #include "terminal.h"
 
@@ -40,16 +41,18 @@ void addUnknowns(CLI::App& command, Options& o) {
   const char* const group = "Unknowns, besides Young's modulus";
   CLI::Option* poisson = command.add_option("--poisson", o.poisson,
                                             "Poisson's ratio, if it is known; else identified");
-  poisson->check(CLI::Range(-0.999999, 0.5))->group(group);
+  poisson->check(isFinite())->check(CLI::Range(-0.999999, 0.5))->group(group);
   command
       .add_option("--poisson-range", o.poissonRange,
                   "Where it is looked for; 0 to 0.499, for fem 0 to 0.449")
       ->expected(2)
+      ->check(isFinite())
       ->excludes(poisson)
       ->group(group);
   command
       .add_option("--largest-ratio", o.largestRatio,
                   "Of Young's moduli of two regions (fem: cells' MaterialRegion)")
+      ->check(isFinite())
       ->capture_default_str()
       ->group(group);
   command
@@ -100,11 +103,13 @@ void addOptions(CLI::App& command, Options& o) {
   command
       .add_option("--interpolation-tolerance", o.tolerance,
                   "Of responses between the materials that are computed, relative")
+      ->check(isFinite())
       ->check(CLI::Range(1e-9, 0.1))
       ->capture_default_str();
   command
       .add_option("--place-tolerance", o.placeTolerance,
                   "How far a place may be from the surface, over its diagonal")
+      ->check(isFinite())
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "finite_check.h"
 #include "identification/measurement_file.h"
 #include "terminal.h"
 
@@ -37,24 +38,36 @@ void addOptions(CLI::App& command, Options& o) {
       "measurements", "");
   command.add_option("--probes", o.probes, "How many press")->capture_default_str();
   command.add_option("--markers", o.markers, "How many are seen under each")->capture_default_str();
-  command.add_option("--radius", o.radius, "Of a probe's tip, m; by default two mean edges");
-  command.add_option("--force", o.force,
-                     "N; by default so that the largest displacement is 1 % of the diagonal");
+  command.add_option("--radius", o.radius,
+                     "Of a probe's tip, m->check(isFinite()); by default two mean edges");
+  command.add_option(
+      "--force", o.force,
+      "N->check(isFinite()); by default so that the largest displacement is 1 % of the diagonal");
   command.add_option("--tilt", o.tilt, "Largest angle of forces from the normal, degrees")
+      ->check(isFinite())
       ->capture_default_str();
   command.add_option("--noise", o.noise, "Standard deviation, over the largest displacement")
+      ->check(isFinite())
       ->capture_default_str();
   command.add_flag("--with-deviations", o.withDeviations, "The table tells it");
   command.add_option("--outliers", o.outliers, "Share of displacements that are wrong")
+      ->check(isFinite())
       ->capture_default_str();
   command.add_option("--missing", o.missing, "Share of displacements that are not seen")
+      ->check(isFinite())
       ->capture_default_str();
   command.add_option("--rotation", o.rotation, "Of the rig's frame, a vector of degrees")
-      ->expected(3);
-  command.add_option("--translation", o.translation, "Of the rig's frame, m")->expected(3);
-  command.add_option("--yield-length", o.yield,
-                     "Young's modulus over the stiffness per area of the support, m; 0: firm");
-  command.add_option("--seed", o.seed, "Of all that is random")->capture_default_str();
+      ->expected(3)
+      ->check(isFinite());
+  command.add_option("--translation", o.translation, "Of the rig's frame, m")
+      ->expected(3)
+      ->check(isFinite());
+  command.add_option(
+      "--yield-length", o.yield,
+      "Young's modulus over the stiffness per area of the support, m->check(isFinite()); 0: firm");
+  command.add_option("--seed", o.seed, "Of all that is random")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.footer(
       "  palpate precompute kidney_fine.vtp body.vtp --method fem --young 8e3 --poisson 0.4\n"
       "  palpate measure body.vtp rig.csv --probes 5 --markers 50 --noise 0.01\n"

@@ -21,8 +21,9 @@ def gravity(model, density=None, acceleration=(0, 0, -9.81)):
     Parameters
     ----------
     model : vtkPolyData
-        From `precompute`: of boundary elements with the Green's functions of all free vertices, of
-        finite elements, or a shell; or one of the latter two on a `foundation`.
+        From `precompute`: of boundary elements with the Green's functions of all free vertices (and
+        `patch_columns` where edges are sharp), of finite elements, or a shell; or one of the latter two
+        whose support rests on a `foundation`.
     density : float, optional
         In the mean over the volume, kg/m^3. None takes the model's, which volume meshes with the cell
         array `Density` have.

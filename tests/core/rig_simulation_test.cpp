@@ -133,6 +133,28 @@ TEST(Registration, FindsTheFrameOfTheRig) {
             1e-5 * exact.probes[1].force.norm());
 }
 
+TEST(Registration, FindsFramesHoweverFarAway) {
+  const Kidney kidney;
+  const double size = kidney.model.mesh().diagonal();
+  RigSettings rig = exactRig();
+  rig.radius = 0.2 * size;
+  rig.markers = 100;
+  const Measurements exact = measuredOn(kidney.greens, kidney.model.mesh(), rig);
+  for (double away : {3., 10., 100.})
+    for (const Eigen::Vector3d& towards :
+         {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(0.3, -0.5, 0.8), Eigen::Vector3d(-1, 2, 3)}) {
+      rig.rotation = {3, -4, 2};
+      rig.translation = away * size * towards.normalized();
+      const Measurements seen = measuredOn(kidney.greens, kidney.model.mesh(), rig);
+      const Registration found = registerToSurface(kidney.model.mesh(), seen);
+      EXPECT_LE(found.distance, 1e-6 * size) << away << " " << towards.transpose();
+      const Measurements back = registered(seen, found);
+      EXPECT_LE((back.displacements[7].marker.point - exact.displacements[7].marker.point).norm(),
+                1e-4 * size)
+          << away << " " << towards.transpose();
+    }
+}
+
 TEST(Registration, DeviationsGoWithTheNoiseOfPlaces) {
   const Kidney kidney;
   const double size = kidney.model.mesh().diagonal();
@@ -165,6 +187,7 @@ TEST(Registration, WhatASurfaceCannotTellIsNamed) {
   const Kidney kidney;
   RigSettings rig = exactRig();
   rig.probes = 1;
+  rig.radius = 0.2 * kidney.model.mesh().diagonal();
   Measurements line = measuredOn(kidney.greens, kidney.model.mesh(), rig);
   for (std::size_t i = 0; i < line.displacements.size(); ++i)
     line.displacements[i].marker.point =

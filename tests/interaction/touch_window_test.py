@@ -182,11 +182,13 @@ class Keys(Windowed):
                 style.MoveProbe(*(TOP + offset))
                 style.RunHeadless(1)
             self.assertTrue(style.IsTouching())
+            self.assertNotIn("inside the body", style.GetFaultTable())
             camera = window.renderer.GetActiveCamera()
             before = camera.GetPosition()
             window.key(key)
             style.RunHeadless(0.1)
-            self.assertFalse(style.IsTouching())  # it is inside; from outside it touches again
+            # It is inside, of which is told, and touches the nearest place; from outside it touches as ever.
+            self.assertIn("inside the body when its touch began", style.GetFaultTable())
             self.assertEqual(camera.GetPosition() != before, key == "r")
             for offset in ((0, 0, 0.005), (0, 0, -0.002)):
                 style.MoveProbe(*(TOP + offset))

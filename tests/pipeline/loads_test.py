@@ -12,7 +12,7 @@ import numpy as np
 import palpate
 from support.refused import Refusals
 from support.solids import bar, base_of, boundary_of, set_cells
-from support.surfaces import copy_of, failure_of, lower_cap, points_of, run, sphere, sphere_model
+from support.surfaces import copy_of, cube, failure_of, lower_cap, points_of, run, sphere, sphere_model
 
 YOUNG = 1e4
 LAYERS = (900.0, 1500.0)  # kg/m^3, of the lower and the upper half of a bar of height 2
@@ -71,6 +71,9 @@ class Gravity(Refusals):
         surface = sphere()
         some = palpate.precompute(surface, YOUNG, 0.3, fixed=lower_cap(surface), columns=[3])
         self.refused("were not computed", palpate.gravity, some, 1000)
+        edged = cube()
+        sharp = palpate.precompute(edged, YOUNG, 0.3, fixed=points_of(edged)[:, 2] == 0)
+        self.refused("--patch-columns", palpate.gravity, sharp, 1000)
         around = palpate.precompute(surface, YOUNG, 0.3, domain="exterior")
         self.refused("has no weight", palpate.gravity, around, 1000)
         filter = palpate.vtkBodyForce()
@@ -131,7 +134,7 @@ class Foundation(Refusals):
     def test_that_makes_no_sense_is_refused(self):
         surface = sphere()
         firm = sphere_model()
-        self.refused("were not computed", palpate.foundation, firm, 1e4)
+        self.refused("precompute with --support-columns", palpate.foundation, firm, 1e4)
         self.refused("no spring of any stiffness", palpate.foundation, firm)
         self.refused("at least 0", palpate.foundation, firm, -1)
         self.refused("shear must be at least 0", palpate.foundation, firm, 1, -1)
@@ -201,6 +204,11 @@ class Unsupported(Refusals):
             self.assertLess(np.abs(palpate.array(model, "VertexArea") @ u).max(), 1e-10)
             self.assertTrue((palpate.array(model, "BoundaryType") == 0).all())
 
+    def test_a_surface_needs_no_support_array_even_if_its_filling_has_other_triangles(self):
+        model = palpate.precompute(cube(4), YOUNG, 0.3, domain="unsupported", method="fem",
+                                   estimate_error=False)
+        self.assertTrue((palpate.array(model, "BoundaryType") == 0).all())
+
     def test_a_support_that_the_surface_has_is_not_read(self):
         surface = sphere_model()
         free = palpate.precompute(surface, YOUNG, 0.3, domain="unsupported")
@@ -219,6 +227,8 @@ class Unsupported(Refusals):
                      domain="unsupported", method="halfspace")
         loose = palpate.precompute(surface, YOUNG, 0.3, domain="unsupported")
         self.refused("falls freely", palpate.gravity, loose, 1000)
+        self.refused("unless these were put under", palpate.gravity,
+                     palpate.foundation(loose, springs=np.ones(162)), 1000)
 
 
 class Program(unittest.TestCase):
@@ -266,7 +276,9 @@ class Program(unittest.TestCase):
         for sentence, arguments in (("no spring of any", ()), ("--shear goes with", ("--shear", 1)),
                                     ("three coordinates and a stiffness", ("--spring", 1, 2, 3)),
                                     ("negative stiffness", ("--spring", 0, 0, 1, -3)),
-                                    ("at least 0 Pa/m", ("--stiffness", -1))):
+                                    ("must be above 0 Pa/m", ("--stiffness", -1)),
+                                    ("lets the body slide away", ("--stiffness", 1e4, "--shear", 0)),
+                                    ("are its coordinates in metres?", ("--spring", 0, 0, 1000, 5))):
             self.badly(sentence, "foundation", self.file("firm.vtp"), self.file("none.vtp"), *arguments)
         self.assertFalse(os.path.exists(self.file("none.vtp")))
 
@@ -278,6 +290,10 @@ class Program(unittest.TestCase):
             self.well("press", loose, "--at", 0, 0, 1, "--force", 0, 0, -1, "--radius", 0.4)
             self.well("touch", loose, "--tool-radius", 0.3, "--device", "simulated", "--headless", "--seconds",
                       0.2)
+        firm = self.file("without_columns.vtp")
+        self.well("precompute", self.file("ball.vtp"), firm, "--young", YOUNG, "--poisson", 0.3, "--fix-half-space",
+                  0, 0, -0.7, 0, 0, 1, "--no-estimate")
+        self.badly("precompute with --support-columns", "foundation", firm, loose, "--stiffness", 1)
         self.badly("leave out what fixes them", "precompute", self.file("ball.vtp"), loose, "--domain",
                    "unsupported", "--fix-half-space", 0, 0, 0, 0, 0, 1)
 

@@ -43,7 +43,15 @@ struct Springs {
                "three, or none to keep it fixed");
       (greens.isFixed(v) ? released : free).push_back(v);
     }
-    if (released.empty() && free.empty()) refuse("there is no spring of any stiffness");
+    if (released.empty() && free.empty())
+      refuse(
+          "there is no spring of any stiffness: give the foundation one, or single vertices "
+          "springs");
+    for (int v : released)
+      if (!greens.hasColumn(v))
+        refuse("the Green's functions of the support (vertex ", v,
+               ") were not computed, so that it cannot give way: precompute with "
+               "--support-columns (in Python columns=np.arange(n))");
   }
 };
 
@@ -59,7 +67,6 @@ class Answers {
         types_(model.conditions().types()) {
     for (int v : where.released) types_[v] = 0;
     greens.requireColumns(nodeList(model.conditions().freeNodes()));
-    greens.requireColumns(nodeList(where.released));
     for (int v = 0; v < greens.nodeCount(); ++v)
       if (greens.hasColumn(v)) columns_.push_back(v);
     std::vector<int> rows(greens.nodeCount());

@@ -20,12 +20,26 @@ Eigen::Vector3d middleOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
   return area > 0 ? Eigen::Vector3d(sum / area) : sum;
 }
 
+/// Whether a free vertex is on several patches.
+bool hasSharpEdges(const GreensFunctionsInfo& info, const SurfaceMesh& mesh,
+                   const Eigen::VectorXi& patches) {
+  if (patches.size() != mesh.triangleCount()) return false;  // which solveFaceTractions refuses
+  for (int v : info.conditions.freeNodes())
+    for (int f : mesh.trianglesOfVertex(v))
+      if (patches[f] != patches[*mesh.trianglesOfVertex(v).begin()]) return true;
+  return false;
+}
+
 /// @throws if the weight cannot be told from the surface.
-void requireKnown(const GreensFunctions& greens) {
+void requireKnown(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                  const Eigen::VectorXi& patches) {
   const GreensFunctionsInfo& info = greens.info();
   const char* reason = nullptr;
   if (info.domain == Domain::Given)
-    reason = "the weight of what a given matrix is of is not known from its surface";
+    reason =
+        "the weight of what a given matrix is of is not known from its surface, nor that of a "
+        "model on springs, unless these were put under one of finite elements with a support, or "
+        "a shell";
   else if (info.domain == Domain::HalfSpace)
     reason = "the weight of a half-space is infinite: it sinks without end under its own";
   else if (info.domain == Domain::Exterior)
@@ -35,6 +49,10 @@ void requireKnown(const GreensFunctions& greens) {
   else if (info.domain == Domain::Shell || !info.homogeneous)
     reason = "this model does not know what its weight does: compute its Green's functions again";
   if (reason) throw std::invalid_argument(reason);
+  if (info.patchColumns.empty() && hasSharpEdges(info, mesh, patches))
+    throw std::invalid_argument(
+        "under its weight the sides of a sharp edge bear different tractions: precompute with "
+        "--patch-columns (in Python patch_columns=True), or by finite elements");
   greens.requireColumns(nodeList(info.conditions.freeNodes()));
 }
 
@@ -78,7 +96,7 @@ Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh&
                                const Eigen::VectorXi& patches) {
   const GreensFunctionsInfo& info = greens.info();
   if (info.weightResponse.size() > 0) return info.weightResponse;
-  requireKnown(greens);
+  requireKnown(greens, mesh, patches);
   Eigen::MatrixXd response(3 * mesh.vertexCount(), 3);
   for (int k = 0; k < 3; ++k)
     response.col(k) = displacementUnder(Eigen::Vector3d::Unit(k), greens, mesh, patches).reshaped();
@@ -90,7 +108,7 @@ Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const Surfac
                                      const Eigen::Vector3d& weight) {
   const GreensFunctionsInfo& info = greens.info();
   if (info.weightResponse.size() == 0) {
-    requireKnown(greens);
+    requireKnown(greens, mesh, patches);
     return displacementUnder(weight, greens, mesh, patches);
   }
   Eigen::Matrix3Xd displacement = (info.weightResponse * weight).reshaped(3, mesh.vertexCount());

@@ -22,7 +22,7 @@ namespace {
 constexpr int kLeastPlaces = 6;
 constexpr double kDetermined = 3e-2;  // of singular values, rotations times the places' extent
 constexpr double kRobustScale = 2.5;
-constexpr int kScalings = 6;
+constexpr int kScalings = 8, kPlain = 3;  // fits in a row, the first of all places alike
 
 /// A rotation by a vector: its direction and angle.
 Eigen::Matrix3d turnBy(const Eigen::Vector3d& vector) {
@@ -138,6 +138,45 @@ void requireDetermined(const Eigen::MatrixXd& sensitivity) {
          "the measurements in the surface's frame");
 }
 
+/// By area.
+Eigen::Vector3d middleOf(const SurfaceMesh& mesh) {
+  return mesh.points() * mesh.vertexAreas() / mesh.vertexAreas().sum();
+}
+
+struct Fit {
+  Eigen::VectorXd motion;
+  Eigen::VectorXd residuals;  ///< m
+  Eigen::MatrixXd covariance;
+};
+
+/// Robustly, from a motion on, each time with the scale that the fit before left.
+Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const SurfaceMesh& mesh,
+            const std::function<bool()>& goOn) {
+  const double rounding = 1e-9 * mesh.diagonal();
+  Fit fit{start, {}, {}};
+  alignment.evaluate(fit.motion, 1, fit.residuals, nullptr);
+  LeastSquaresProblem problem;
+  problem.lower.setConstant(6, -INFINITY);
+  problem.upper = -problem.lower;
+  problem.groups = static_cast<int>(fit.residuals.size() / 3);
+  problem.goOn = goOn;
+  problem.scale = kRobustScale;
+  for (int i = 0; i < kScalings; ++i) {
+    const double scale = medianScale(fit.residuals, rounding);
+    problem.start = fit.motion;
+    problem.loss = i < kPlain ? RobustLoss::None : RobustLoss::Cauchy;
+    problem.evaluate = [&](const Eigen::VectorXd& motion, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
+      alignment.evaluate(motion, scale, r, j);
+    };
+    const LeastSquaresSolution solution = solveLeastSquares(problem);
+    fit.motion = solution.parameters;
+    fit.covariance = solution.covariance;
+    alignment.evaluate(fit.motion, 1, fit.residuals, nullptr);
+    if (fit.residuals.cwiseAbs().maxCoeff() < rounding) break;
+  }
+  return fit;
+}
+
 }  // namespace
 
 Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& measurements,
@@ -148,39 +187,25 @@ Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& meas
            " places that are given by their coordinates, not ", places.cols());
   const Alignment alignment(mesh, places);
   if (!(alignment.extent() > 0)) refuse("all markers and contacts are at one place");
-  const double rounding = 1e-9 * mesh.diagonal();
-  LeastSquaresProblem problem;
-  problem.start.setZero(6);
-  problem.lower.setConstant(6, -INFINITY);
-  problem.upper = -problem.lower;
-  problem.groups = static_cast<int>(places.cols());
-  problem.goOn = goOn;
-  problem.loss = RobustLoss::Cauchy;
-  problem.scale = kRobustScale;
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd covariance;
-  double scale = 1;
-  for (int i = 0; i < kScalings; ++i) {
-    alignment.evaluate(problem.start, 1, residuals, nullptr);
-    requireDetermined(alignment.sensitivity(problem.start));
-    scale = medianScale(residuals, rounding);
-    problem.evaluate = [&](const Eigen::VectorXd& motion, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
-      alignment.evaluate(motion, scale, r, j);
-    };
-    const LeastSquaresSolution solution = solveLeastSquares(problem);
-    problem.start = solution.parameters;
-    covariance = solution.covariance;
+  // Places first come to where the surface is; those that are there already may also stay.
+  Eigen::VectorXd brought = Eigen::VectorXd::Zero(6);
+  brought.tail<3>() = middleOf(mesh) - alignment.centre();
+  Fit best = fitFrom(brought, alignment, mesh, goOn);
+  if (brought.norm() < mesh.diagonal()) {
+    Fit near = fitFrom(Eigen::VectorXd::Zero(6), alignment, mesh, goOn);
+    if (near.residuals.norm() < best.residuals.norm()) best = std::move(near);
   }
-  alignment.evaluate(problem.start, 1, residuals, nullptr);
+  requireDetermined(alignment.sensitivity(best.motion));
   Registration result;
-  result.rotation = turnBy(problem.start.head<3>() / alignment.extent());
+  result.rotation = turnBy(best.motion.head<3>() / alignment.extent());
   result.translation =
-      alignment.centre() + problem.start.tail<3>() - result.rotation * alignment.centre();
-  if (covariance.size() > 0) {
-    result.rotationDeviation = covariance.diagonal().head<3>().cwiseSqrt() / alignment.extent();
-    result.translationDeviation = covariance.diagonal().tail<3>().cwiseSqrt();
+      alignment.centre() + best.motion.tail<3>() - result.rotation * alignment.centre();
+  if (best.covariance.size() > 0) {
+    result.rotationDeviation =
+        best.covariance.diagonal().head<3>().cwiseSqrt() / alignment.extent();
+    result.translationDeviation = best.covariance.diagonal().tail<3>().cwiseSqrt();
   }
-  result.distance = residuals.norm() / std::sqrt(double(places.cols()));
+  result.distance = best.residuals.norm() / std::sqrt(double(places.cols()));
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace palpate {
 namespace {
 
 constexpr double kUsualDisplacement = 0.01;  // of the diagonal
-constexpr int kMostRows = 10000000;
+constexpr int kMostRows = 1000000, kMostProbes = 1000;
 
 /// Numbers that are the same on all platforms, unlike those of the standard's distributions.
 class Chance {
@@ -38,13 +38,17 @@ class Chance {
 
 void requireSense(const RigSettings& s) {
   const auto isShare = [](double share) { return share >= 0 && share < 1; };
-  if (s.probes < 1 || s.markers < 1 || s.probes > kMostRows / std::max(1, s.markers))
-    refuse("a rig has probes and markers, together up to ", kMostRows, " displacements, not ",
-           s.probes, " and ", s.markers);
+  if (s.probes < 1 || s.markers < 1 || s.probes > kMostProbes ||
+      s.probes > kMostRows / std::max(1, s.markers))
+    refuse("a rig has up to ", kMostProbes, " probes, and markers, together up to ", kMostRows,
+           " displacements, not ", s.probes, " and ", s.markers);
+  if (!(s.foundationLength >= 0 && s.foundationLength < 1e6))
+    refuse("the length by which a support yields must be from 0 to 1e6 m, not ",
+           s.foundationLength);
   if (!(s.radius >= 0 && std::isfinite(s.radius)))
     refuse("the radius of a tip must not be negative, not ", s.radius);
-  if (!(s.force >= 0 && std::isfinite(s.force)))
-    refuse("the force must not be negative, not ", s.force);
+  if (!(s.force >= 0 && s.force <= 1e12))
+    refuse("the force must be from 0 to 1e12 N, not ", s.force);
   if (!(s.tilt >= 0 && s.tilt <= 90)) refuse("forces are tilted by 0 to 90 degrees, not ", s.tilt);
   if (!(s.noise >= 0 && s.noise < 1))
     refuse("the noise must be at least 0 and below 1, not ", s.noise);
@@ -157,6 +161,9 @@ Measurements simulateMeasurements(
     const std::function<SpreadForce(const SurfacePoint&, double radius)>& loadAt,
     const RigSettings& settings) {
   requireSense(settings);
+  if (settings.radius > mesh.diagonal())
+    refuse("a tip of radius ", settings.radius, " m is larger than the body, ", mesh.diagonal(),
+           " m: are both in metres?");
   Chance chance(settings.seed);
   const FreeSurface surface(greens, mesh);
   Measurements measurements;

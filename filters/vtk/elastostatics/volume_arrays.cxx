@@ -360,7 +360,7 @@ vtkSmartPointer<vtkPolyData> boundaryOf(
   setSurface(boundary, filled.mesh.points().leftCols(count), triangles);
 
   const SurfaceLocator locator(mesh);
-  std::vector<unsigned char> types = boundaryTypesOf(surface, false);
+  std::vector<unsigned char> types = boundaryTypesOf(surface, true);
   vtkPointData* points = boundary->GetPointData();
   points->CopyAllOn();
   points->InterpolateAllocate(surface->GetPointData(), count);

@@ -50,10 +50,7 @@ void vtkBodyForce::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformati
   {
     this->Kept.reset();
     convert::ServedModel served = convert::servedModelOf(input);
-    Eigen::MatrixXd response =
-      palpate::weightResponse(*served.greens, *served.mesh, served.smoothPatches);
-    this->Kept.reset(
-      new Prepared{ input, input->GetMTime(), std::move(served), std::move(response) });
+    this->Kept.reset(new Prepared{ input, input->GetMTime(), std::move(served), {} });
   }
   const palpate::GreensFunctions& greens = *this->Kept->Served.greens;
   const double density = this->Density != 0 ? this->Density : greens.info().density;
@@ -62,6 +59,11 @@ void vtkBodyForce::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformati
     throw std::invalid_argument(this->Density == 0
         ? "the model does not know its density: give one, kg/m^3"
         : "the density must be a positive number, not " + std::to_string(this->Density));
+  }
+  if (this->Kept->Response.size() == 0)
+  {
+    this->Kept->Response =
+      palpate::weightResponse(greens, *this->Kept->Served.mesh, this->Kept->Served.smoothPatches);
   }
   const Eigen::Matrix3Xd answer =
     (this->Kept->Response * (density * acceleration)).reshaped(3, greens.nodeCount());

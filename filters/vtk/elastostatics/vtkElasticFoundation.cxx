@@ -61,6 +61,11 @@ void vtkElasticFoundation::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
   const palpate::GreensFunctionsInfo& info = served.greens->info();
   const palpate::ElasticModel model(
     served.mesh, info.material, info.conditions, served.smoothPatches, info.domain);
+  if (this->NormalStiffness > 0 && this->ShearStiffness == 0)
+  {
+    throw std::invalid_argument("a foundation without shear stiffness lets the body slide away: give "
+                                "one above 0, however small");
+  }
   Eigen::Matrix3Xd springs = palpate::foundationSprings(*served.mesh,
     this->NormalStiffness == 0 ? std::vector<int>{} : info.conditions.fixedNodes(),
     this->NormalStiffness,
