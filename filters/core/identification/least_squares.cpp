@@ -79,11 +79,12 @@ LeastSquaresSolution solveLeastSquares(const LeastSquaresProblem& problem) {
   LeastSquaresSolution solution;
   std::string failure;
   solve(problem, solution, failure);
-  if (!failure.empty()) throw std::runtime_error("the identification did not converge: " + failure);
+  if (!failure.empty()) throw NotConverged(failure, solution.parameters);
   inspect(problem, solution);
   if (solution.gradient > kLargestGradient)
-    throw std::runtime_error(sentence("the identification did not converge: the slope left is ",
-                                      shortly(solution.gradient), " of the residuals"));
+    throw NotConverged(
+        sentence("the slope left is ", shortly(solution.gradient), " of the residuals"),
+        solution.parameters);
   return solution;
 }
 

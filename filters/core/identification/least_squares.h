@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sentence.h"
 
@@ -56,9 +58,17 @@ struct LeastSquaresSolution {
   int iterations = 0;
 };
 
+/// With the reason, and how far it came.
+struct NotConverged : std::runtime_error {
+  NotConverged(const std::string& reason, Eigen::VectorXd parameters)
+      : std::runtime_error("the identification did not converge: " + reason),
+        parameters(std::move(parameters)) {}
+  Eigen::VectorXd parameters;
+};
+
 /// Minimises by Ceres: Levenberg and Marquardt's steps within the bounds.
-/// @throws Aborted; std::runtime_error if it does not converge, with the reason; what `evaluate`
-///         throws; std::runtime_error if Palpate was built without Ceres.
+/// @throws Aborted; NotConverged; what `evaluate` throws; std::runtime_error if Palpate was built
+///         without Ceres.
 LeastSquaresSolution solveLeastSquares(const LeastSquaresProblem& problem);
 
 /// What the library with Ceres has, under the name kLeastSquaresFunction.

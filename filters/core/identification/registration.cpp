@@ -49,26 +49,48 @@ Eigen::Matrix3Xd placesOf(const Measurements& measurements) {
   return matrix;
 }
 
-/// Distances from the surface under motions about the places' centre, from a pose on.
+/// By area.
+Eigen::Vector3d middleOf(const SurfaceMesh& mesh) {
+  return mesh.points() * mesh.vertexAreas() / mesh.vertexAreas().sum();
+}
+
+/// Distances from the surface under motions of places whose centre was brought to its middle: a
+/// turn about it, times the places' extent, and a shift. However far away the places were, motions
+/// are about as large as the surface.
 class Alignment {
  public:
   Alignment(const SurfaceMesh& mesh, const Eigen::Matrix3Xd& places)
       : mesh_(mesh),
         locator_(std::make_shared<SurfaceMesh>(mesh.points(), mesh.triangles(), mesh.rims())),
+        middle_(middleOf(mesh)),
         centre_(places.rowwise().mean()),
         offsets_(places.colwise() - centre_),
         extent_(std::sqrt(offsets_.colwise().squaredNorm().mean())) {}
 
-  const Eigen::Vector3d& centre() const { return centre_; }
   double extent() const { return extent_; }
+
+  /// Of places that are left where they were.
+  Eigen::VectorXd stay() const {
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(6);
+    motion.tail<3>() = centre_ - middle_;
+    return motion;
+  }
+
+  Eigen::Matrix3d rotation(const Eigen::VectorXd& motion) const {
+    return turnBy(motion.head<3>() / extent_);
+  }
+
+  Eigen::Vector3d translation(const Eigen::VectorXd& motion) const {
+    return middle_ + motion.tail<3>() - rotation(motion) * centre_;
+  }
 
   /// How far motions take the places off the surface, were it smooth: of facets alone, the sides
   /// of a ball would tell how it is turned. A row a place.
   Eigen::MatrixXd sensitivity(const Eigen::VectorXd& motion) const {
     Eigen::MatrixXd rows(offsets_.cols(), 6);
     for (Eigen::Index i = 0; i < offsets_.cols(); ++i) {
-      const Eigen::Vector3d arm = turnBy(motion.head<3>() / extent_) * offsets_.col(i);
-      const SurfacePoint nearest = locator_.nearest(centre_ + arm + motion.tail<3>());
+      const Eigen::Vector3d arm = rotation(motion) * offsets_.col(i);
+      const SurfacePoint nearest = locator_.nearest(middle_ + arm + motion.tail<3>());
       const Eigen::Vector3d normal =
           (mesh_.vertexNormals()(Eigen::all, mesh_.triangles().col(nearest.triangle)) *
            nearest.barycentric)
@@ -88,7 +110,7 @@ class Alignment {
     const Eigen::Vector3d turn = motion.head<3>() / extent_;
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Vector3d arm = turnBy(turn) * offsets_.col(i),
-                            place = centre_ + arm + motion.tail<3>();
+                            place = middle_ + arm + motion.tail<3>();
       const SurfacePoint nearest = locator_.nearest(place);
       const Eigen::Vector3d gap = place - placeOf(mesh_, nearest);
       Eigen::Vector3d normal = mesh_.triangleNormals().col(nearest.triangle);
@@ -113,7 +135,7 @@ class Alignment {
 
   const SurfaceMesh& mesh_;
   SurfaceLocator locator_;
-  Eigen::Vector3d centre_;
+  Eigen::Vector3d middle_, centre_;
   Eigen::Matrix3Xd offsets_;
   double extent_;
 };
@@ -138,11 +160,6 @@ void requireDetermined(const Eigen::MatrixXd& sensitivity) {
          "the measurements in the surface's frame");
 }
 
-/// By area.
-Eigen::Vector3d middleOf(const SurfaceMesh& mesh) {
-  return mesh.points() * mesh.vertexAreas() / mesh.vertexAreas().sum();
-}
-
 struct Fit {
   Eigen::VectorXd motion;
   Eigen::VectorXd residuals;  ///< m
@@ -151,7 +168,7 @@ struct Fit {
 
 /// Robustly, from a motion on, each time with the scale that the fit before left.
 Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const SurfaceMesh& mesh,
-            const std::function<bool()>& goOn) {
+            const std::function<bool()>& goOn) try {
   const double rounding = 1e-9 * mesh.diagonal();
   Fit fit{start, {}, {}};
   alignment.evaluate(fit.motion, 1, fit.residuals, nullptr);
@@ -175,6 +192,9 @@ Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const Surf
     if (fit.residuals.cwiseAbs().maxCoeff() < rounding) break;
   }
   return fit;
+} catch (const NotConverged& ended) {
+  requireDetermined(alignment.sensitivity(ended.parameters));
+  throw;
 }
 
 }  // namespace
@@ -187,19 +207,15 @@ Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& meas
            " places that are given by their coordinates, not ", places.cols());
   const Alignment alignment(mesh, places);
   if (!(alignment.extent() > 0)) refuse("all markers and contacts are at one place");
-  // Places first come to where the surface is; those that are there already may also stay.
-  Eigen::VectorXd brought = Eigen::VectorXd::Zero(6);
-  brought.tail<3>() = middleOf(mesh) - alignment.centre();
-  Fit best = fitFrom(brought, alignment, mesh, goOn);
-  if (brought.norm() < mesh.diagonal()) {
-    Fit near = fitFrom(Eigen::VectorXd::Zero(6), alignment, mesh, goOn);
+  Fit best = fitFrom(Eigen::VectorXd::Zero(6), alignment, mesh, goOn);
+  if (alignment.stay().norm() < mesh.diagonal()) {  // places that may be where they belong
+    Fit near = fitFrom(alignment.stay(), alignment, mesh, goOn);
     if (near.residuals.norm() < best.residuals.norm()) best = std::move(near);
   }
   requireDetermined(alignment.sensitivity(best.motion));
   Registration result;
-  result.rotation = turnBy(best.motion.head<3>() / alignment.extent());
-  result.translation =
-      alignment.centre() + best.motion.tail<3>() - result.rotation * alignment.centre();
+  result.rotation = alignment.rotation(best.motion);
+  result.translation = alignment.translation(best.motion);
   if (best.covariance.size() > 0) {
     result.rotationDeviation =
         best.covariance.diagonal().head<3>().cwiseSqrt() / alignment.extent();
