@@ -81,7 +81,8 @@ void servedFiniteElements(benchmark::State& state) {
 fem::SolidSystem systemOf(const SolidProblem& problem) {
   std::vector<fem::LoadHat> hats;
   for (int v : problem.model.conditions().freeNodes()) hats.push_back({v, -1});
-  return {problem.model, problem.body, SolidElement::Quadratic, std::move(hats), {}, Progress()};
+  return {problem.model, problem.body, SolidElement::Quadratic, std::move(hats), {}, {},
+          Progress()};
 }
 
 void assemble(benchmark::State& state) {

@@ -14,6 +14,7 @@
 #include "greens/reciprocity.h"
 #include "greens/rigid_motions.h"
 #include "mesh/surface_locator.h"
+#include "sentence.h"
 #include "stopwatch.h"
 
 namespace palpate {
@@ -67,6 +68,25 @@ AlignedBuffer<double> taken(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
 }
 
 constexpr double kEstimateShare = 0.3;
+
+void requireHeldComponents(const HeldDisplacements& held, const ElasticModel& model) {
+  if (held.cols() == 0) return;
+  if (held.cols() != model.mesh().vertexCount())
+    refuse("there are held components of ", held.cols(), " vertices, the surface has ",
+           model.mesh().vertexCount());
+  if (model.domain() == Domain::Unsupported)
+    refuse("an unsupported body has no held components: leave them out");
+  for (int v : model.conditions().freeNodes())
+    if (held.col(v).all()) refuse("vertex ", v, " is free, but all of it is held: fix it");
+}
+
+/// What a model with held components is told from others by.
+std::uint64_t fingerprintWith(const HeldDisplacements& held, std::uint64_t ofModel) {
+  return Fingerprint()
+      .add(&ofModel, sizeof ofModel)
+      .add(held.data(), sizeof(bool) * held.size())
+      .value();
+}
 
 /// Rows of probes in the model's units, of the nodes whose columns there are and that are free.
 std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Matrix3Xd& points,
@@ -138,11 +158,15 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
     if (options.probes.cols() > 0)
       throw std::invalid_argument("an unsupported body has no probes: leave them out");
   }
+  requireHeldComponents(options.held, model);
+  const bool isEstimated =
+      options.estimateError && body.materialCount() == 1 && options.held.cols() == 0;
   const Progress whole(callback);
-  const Progress progress = whole.part(0, options.estimateError ? 1 - kEstimateShare : 1);
+  const Progress progress = whole.part(0, isEstimated ? 1 - kEstimateShare : 1);
   ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
+  if (options.held.any()) info.fingerprint = fingerprintWith(options.held, info.fingerprint);
   info.homogeneous = body.isOf(model.material());
   info.density = body.density();
   info.source = describeSource(body, options.element);
@@ -157,7 +181,7 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   for (const LoadHat& hat : hats)
     if (hat.patch >= 0) info.patchColumns.push_back({hat.vertex, hat.patch});
   const std::vector<WantedColumn> wanted = wantedColumns(info, hats);
-  fem::SolidSystem system(model, body, options.element, std::move(hats),
+  fem::SolidSystem system(model, body, options.element, std::move(hats), options.held,
                           fem::locateProbes(body, options.probes), progress.part(0, 0.1));
   addSeconds(info.diagnostics, "assemble", watch.seconds());
 
@@ -192,7 +216,7 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   if (info.domain == Domain::Interior)
     info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
   addSeconds(info.diagnostics, "check", watch.seconds());
-  if (options.estimateError && body.materialCount() == 1) {
+  if (isEstimated) {
     info.diagnostics.error = estimateError(model, estimatedMethod(options, body.material(0)),
                                            *result.view(), whole.part(1 - kEstimateShare, 1));
     addSeconds(info.diagnostics, "estimate", watch.seconds());

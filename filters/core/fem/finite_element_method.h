@@ -26,8 +26,11 @@ struct FiniteElementOptions {
   /// Loads and displacements conjugate to each other, so that the compliance is symmetric; else
   /// each as exact as can be.
   bool reciprocal = true;
+  /// Components that symmetry or a guide holds, 3 by #V, or empty for none: along them a force does
+  /// nothing. Where all three are, the vertex has to be fixed.
+  HeldDisplacements held;
   /// Also estimate the error on another mesh of the model, filled anew (see estimateError); unknown
-  /// for bodies of several materials.
+  /// for bodies of several materials and where single components are held.
   bool estimateError = false;
 };
 
@@ -53,8 +56,10 @@ struct FiniteElementOptions {
 /// Where few columns are asked for they are solved for one by one, else all at once as the Schur
 /// complement of a multifrontal factorisation.
 /// @param model  its surface is that of the body; its material serves as unit of what is reported.
-/// @throws std::invalid_argument for columns out of range, another domain, or linear elements of
-///         nearly incompressible materials; Aborted; std::bad_alloc; std::runtime_error if the
+/// @throws std::invalid_argument for columns out of range, another domain, linear elements of
+/// nearly
+///         incompressible materials, or components held of an unsupported body or of all three of a
+///         free vertex; Aborted; std::bad_alloc; std::runtime_error if the
 ///         system is singular or the library was built without MUMPS.
 ComputedGreensFunctions computeFiniteElementGreensFunctions(
     const ElasticModel& model, const SolidBody& body, const FiniteElementOptions& options = {},

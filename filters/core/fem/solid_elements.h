@@ -16,6 +16,10 @@ enum class SolidElement {
   Quadratic,  ///< and the middles of six edges
 };
 
+/// 3 by #V: whether the displacement of a vertex of the surface along x, y, z is held, besides what
+/// its fixed vertices hold.
+using HeldDisplacements = Eigen::Array<bool, 3, Eigen::Dynamic>;
+
 }  // namespace palpate
 
 namespace palpate::fem {

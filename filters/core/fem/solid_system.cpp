@@ -76,12 +76,13 @@ int groupOf(const SolidBody& body, int cell) {
 }  // namespace
 
 SolidSystem::SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
-                         std::vector<LoadHat> loadHats, const std::vector<SolidProbe>& probes,
-                         const Progress& progress)
+                         std::vector<LoadHat> loadHats, HeldDisplacements heldOnes,
+                         const std::vector<SolidProbe>& probes, const Progress& progress)
     : length(model.mesh().diagonal()),
       stiffness(body.largestStiffness()),
       hats(std::move(loadHats)),
-      fixedVertices(model.conditions().fixedNodes()) {
+      fixedVertices(model.conditions().fixedNodes()),
+      held(std::move(heldOnes)) {
   const SolidNodes nodes(body.mesh(), element);
   placePressures(body);
   if (pressureCount > 0 && element == SolidElement::Linear)
@@ -117,36 +118,35 @@ int SolidSystem::pressurePlace(const SolidBody& body, int cell, int corner) cons
 
 void SolidSystem::placeNodes(const ElasticModel& model, const SolidBody& body,
                              const SolidNodes& nodes) {
-  places_.resize(nodes.count);
-  std::vector<bool> isHeld(nodes.count, false);
-  const Eigen::Matrix3Xi& triangles = model.mesh().triangles();
-  for (int v : fixedVertices) isHeld[body.pointOfVertex(v)] = true;
-  const auto forFixedEdges = [&](const auto& act) {
+  places_.resize(3 * nodes.count);
+  std::vector<bool> isGiven(3 * nodes.count, false);
+  const auto forGivenMiddles = [&](const auto& act) {
+    const Eigen::Matrix3Xi& triangles = model.mesh().triangles();
     for (int f = 0; f < model.mesh().triangleCount(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const int a = triangles(k, f), b = triangles((k + 1) % 3, f);
-        if (!model.conditions().isFixed(a) || !model.conditions().isFixed(b)) continue;
-        const int middle = nodes.middle(body.pointOfVertex(a), body.pointOfVertex(b));
-        if (middle >= 0) act(middle, body.pointOfVertex(a), body.pointOfVertex(b));
+      for (int i = 0; i < 3; ++i) {
+        const int a = body.pointOfVertex(triangles(i, f));
+        const int b = body.pointOfVertex(triangles((i + 1) % 3, f));
+        const int middle = nodes.middle(a, b);
+        for (int k = 0; k < 3 && middle >= 0; ++k)
+          if (isGiven[3 * a + k] && isGiven[3 * b + k]) act(3 * middle + k, 3 * a + k, 3 * b + k);
       }
   };
-  forFixedEdges([&](int middle, int, int) { isHeld[middle] = true; });
+  for (int v = 0; v < model.mesh().vertexCount(); ++v)
+    for (int k = 0; k < 3; ++k)
+      isGiven[3 * body.pointOfVertex(v) + k] = model.conditions().isFixed(v) || isHeldAlong(k, v);
+  forGivenMiddles([&](int at, int, int) { isGiven[at] = true; });
   int next = 0;
-  for (int node = 0; node < nodes.count; ++node)
-    if (!isHeld[node]) {
-      places_[node].place[0] = next;
-      next += 3;
-    }
+  for (int at = 0; at < 3 * nodes.count; ++at)
+    if (!isGiven[at]) places_[at].place[0] = next++;
   firstPressure_ = next;
   firstHat_ = firstPressure_ + pressureCount;
   next = firstHat_ + 3 * static_cast<int>(hats.size());
-  for (int v : fixedVertices) {
-    places_[body.pointOfVertex(v)].place[0] = next;
-    next += 3;
-  }
-  forFixedEdges([&](int middle, int a, int b) {
-    places_[middle].place[0] = places_[a].place[0];
-    places_[middle].place[1] = places_[b].place[0];
+  for (int v : fixedVertices)
+    for (int k = 0; k < 3; ++k) places_[3 * body.pointOfVertex(v) + k].place[0] = next++;
+  forGivenMiddles([&](int at, int a, int b) {
+    NodePlace& middle = places_[at];
+    middle = {{places_[a].place[0], places_[b].place[0]}, 0.5};
+    if (middle.place[0] < 0) std::swap(middle.place[0], middle.place[1]);
   });
   entries.size = next;
 }
@@ -175,28 +175,28 @@ void SolidSystem::addCells(const SolidBody& body, const SolidNodes& nodes, Solid
         entries.add(row, pressurePlace(body, cell, u),
                     -matrices.mass(v, u) * material.compressibility() * stiffness);
       for (int i = 0; i < nodes.perCell(); ++i)
-        for (int end = 0; end < places_[node[i]].count(); ++end)
-          for (int k = 0; k < 3; ++k)
-            entries.add(row, places_[node[i]].place[end] + k,
-                        places_[node[i]].weight() * matrices.divergence(v, 3 * i + k));
+        for (int k = 0; k < 3; ++k) {
+          const NodePlace& at = placeOf(node[i], k);
+          for (int end = 0; end < at.count(); ++end)
+            entries.add(row, at.place[end], at.weight * matrices.divergence(v, 3 * i + k));
+        }
     }
   }
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const NodePlace &row = places_[blocks.row(i)], &column = places_[blocks.column(i)];
-    const bool isDiagonal = blocks.row(i) == blocks.column(i);
-    const double weight = row.weight() * column.weight();
-    for (int r = 0; r < row.count(); ++r)
-      for (int c = 0; c < column.count(); ++c)
-        for (int k = 0; k < 3; ++k)
-          for (int l = 0; l < 3; ++l) {
-            const int a = row.place[r] + k, b = column.place[c] + l;
-            const double value = weight * blocks.block(i)(k, l);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        const NodePlace &row = placeOf(blocks.row(i), k), &column = placeOf(blocks.column(i), l);
+        const bool isDiagonal = blocks.row(i) == blocks.column(i);
+        const double value = row.weight * column.weight * blocks.block(i)(k, l);
+        for (int r = 0; r < row.count(); ++r)
+          for (int c = 0; c < column.count(); ++c) {
+            const int a = row.place[r], b = column.place[c];
             // A node's own block holds both halves of the matrix, that of two nodes stands for its
             // transpose, too.
             if (isDiagonal && a < b) continue;
             entries.add(a, b, !isDiagonal && a == b ? 2 * value : value);
           }
-  }
+      }
 }
 
 void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, SolidElement element) {
@@ -210,10 +210,11 @@ void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, Soli
       weights[nodes.cells(i, cell)] += weight * (i < 4 ? corner : middle);
   }
   for (int node = 0; node < nodes.count; ++node)
-    for (int end = 0; end < places_[node].count(); ++end)
-      for (int k = 0; k < 3; ++k)
-        entries.add(entries.size + k, places_[node].place[end] + k,
-                    -places_[node].weight() * weights[node]);
+    for (int k = 0; k < 3; ++k) {
+      const NodePlace& at = placeOf(node, k);
+      for (int end = 0; end < at.count(); ++end)
+        entries.add(entries.size + k, at.place[end], -at.weight * weights[node]);
+    }
   entries.size += loadCount;
 }
 
@@ -227,15 +228,15 @@ void SolidSystem::addProbes(const SolidBody& body, const SolidNodes& nodes, Soli
     Eigen::Matrix3Xd slopes;
     shapeFunctions(element, probe.barycentric, barycentricGradients(corners), values, slopes);
     const int row = entries.size;
-    for (int i = 0; i < nodes.perCell(); ++i) {
-      const NodePlace& node = places_[nodes.cells(i, probe.cell)];
-      for (int end = 0; end < node.count(); ++end)
-        for (int k = 0; k < 3; ++k) {
-          entries.add(row + k, node.place[end] + k, -node.weight() * values[i]);
+    for (int i = 0; i < nodes.perCell(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const NodePlace& at = placeOf(nodes.cells(i, probe.cell), k);
+        for (int end = 0; end < at.count(); ++end) {
+          entries.add(row + k, at.place[end], -at.weight * values[i]);
           for (int l = 0; l < 3; ++l)
-            entries.add(row + 3 + 3 * k + l, node.place[end] + k, -node.weight() * slopes(l, i));
+            entries.add(row + 3 + 3 * k + l, at.place[end], -at.weight * slopes(l, i));
         }
-    }
+      }
     for (int v = 0; body.material(probe.cell).isSplit() && v < 4; ++v)
       entries.add(row + 12, pressurePlace(body, probe.cell, v), -probe.barycentric[v]);
     entries.size += 13;
@@ -247,7 +248,7 @@ void SolidSystem::addSprings(const SurfaceMesh& mesh, const SolidBody& body) {
   loadCount = static_cast<int>(motions.cols());
   for (int k = 0; k < mesh.bodyCount(); ++k)
     for (const auto& [vertex, direction] : determinateSprings(mesh, k)) {
-      const int place = places_[body.pointOfVertex(vertex)].place[0];
+      const int place = placeOf(body.pointOfVertex(vertex), 0).place[0];
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j <= i; ++j) entries.add(place + i, place + j, direction[i] * direction[j]);
         const Eigen::RowVectorXd load =
@@ -275,10 +276,11 @@ void SolidSystem::addHats(const ElasticModel& model, const SolidBody& body,
       for (int h : hatsOf[vertex]) {
         if (hats[h].patch >= 0 && hats[h].patch != model.smoothPatches()[f]) continue;
         const auto load = [&](int node, double integral) {
-          const NodePlace& at = places_[node];
-          for (int end = 0; end < at.count(); ++end)
-            for (int k = 0; k < 3; ++k)
-              entries.add(firstHat_ + 3 * h + k, at.place[end] + k, at.weight() * area * integral);
+          for (int k = 0; k < 3; ++k) {
+            const NodePlace& at = placeOf(node, k);
+            for (int end = 0; !isHeldAlong(k, vertex) && end < at.count(); ++end)
+              entries.add(firstHat_ + 3 * h + k, at.place[end], at.weight * area * integral);
+          }
         };
         for (int j = 0; j < 3; ++j) {
           const int corner = body.pointOfVertex(mesh.triangles()(j, f));

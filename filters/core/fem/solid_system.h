@@ -27,7 +27,7 @@ struct LoadHat {
 /// nearly incompressible cells, the pressures q (Taylor and Hood 1973: quadratic displacements,
 /// pressures linear and continuous within a material); kept, and last, are the tractions t on the
 /// load hats and the displacements w of fixed vertices. A held middle of an edge moves as the mean
-/// of its ends.
+/// of its ends. Single components that are held are left out, and hats along them are empty rows.
 ///     [ K    .       -       - ] [ u ]                       K u = L t - K_w w
 ///     [ D   -M/lambda        - ] [ q ]      with
 ///     [ L^T  .       0       - ] [-t ]      mean displacements m = L^T u + L_w^T w, m^2 m
@@ -40,9 +40,10 @@ struct LoadHat {
 /// each other put no force on them; the loads are those that displace the bodies rigidly.
 struct SolidSystem {
   /// @param hats  of free vertices.
+  /// @param held  3 by #V, or empty for none.
   SolidSystem(const ElasticModel& model, const SolidBody& body, SolidElement element,
-              std::vector<LoadHat> hats, const std::vector<SolidProbe>& probes,
-              const Progress& progress);
+              std::vector<LoadHat> hats, HeldDisplacements held,
+              const std::vector<SolidProbe>& probes, const Progress& progress);
 
   int keptCount() const { return probeRow() + 13 * probeCount; }
   /// The kept row of the first probe: minus its ProbeValues, in the system's units.
@@ -50,10 +51,12 @@ struct SolidSystem {
   /// The kept row of the first load.
   int loadRow() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
   int unknownCount() const { return entries.size - keptCount(); }
+  bool isHeldAlong(int axis, int vertex) const { return held.cols() > 0 && held(axis, vertex); }
 
   double length, stiffness;        ///< units, m and Pa
   std::vector<LoadHat> hats;       ///< kept first, three numbers each
   std::vector<int> fixedVertices;  ///< then these, ascending, likewise
+  HeldDisplacements held;          ///< of free vertices
   int pressureCount = 0;
   int loadCount = 0, probeCount = 0;
   SymmetricEntries entries;  ///< unknowns, then what is kept
@@ -61,12 +64,14 @@ struct SolidSystem {
   Eigen::SparseMatrix<double> hatProducts;
 
  private:
-  /// Where the displacement of a node stands: one place, or halves of two.
+  /// Where a component of a node's displacement stands: nowhere where it is held, at one place, or
+  /// in parts at two.
   struct NodePlace {
     int place[2] = {-1, -1};
-    int count() const { return place[1] < 0 ? 1 : 2; }
-    double weight() const { return place[1] < 0 ? 1 : 0.5; }
+    double weight = 1;
+    int count() const { return place[0] < 0 ? 0 : place[1] < 0 ? 1 : 2; }
   };
+  const NodePlace& placeOf(int node, int axis) const { return places_[3 * node + axis]; }
 
   void placeNodes(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
   void placePressures(const SolidBody& body);
@@ -79,7 +84,7 @@ struct SolidSystem {
   void addHats(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
   int pressurePlace(const SolidBody& body, int cell, int corner) const;
 
-  std::vector<NodePlace> places_;
+  std::vector<NodePlace> places_;               // three a node
   std::vector<std::pair<int, int>> pressures_;  // (point, group), ascending
   int firstPressure_ = 0, firstHat_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Geometry>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "fem/hat_products.h"
@@ -73,8 +73,10 @@ class Condensation {
       answer.leftCols(columns) = appliedTo(factored.schurComplement(), wanted);
       answer.rightCols(motions).noalias() = factored.schurComplement() * given;
     }
-    response.rigidMotionDefect = defectOf(answer.rightCols(motions));
-    requireRigidMotions(response.rigidMotionDefect);
+    if (motions > 0) {
+      response.rigidMotionDefect = defectOf(answer.rightCols(motions));
+      requireRigidMotions(response.rigidMotionDefect);
+    }
     answer.conservativeResize(Eigen::NoChange, columns);
     response.columns = atVertices(answer, wanted);
     response.probes = -answer.bottomRows(13 * system_.probeCount);
@@ -98,14 +100,28 @@ class Condensation {
       }
     Sparse products(free_.size(), free_.size());
     products.setFromTriplets(freeFree.begin(), freeFree.end());
-    products_.emplace(products);
+    toFixed_.resize(free_.size(), system_.fixedVertices.size());
+    toFixed_.setFromTriplets(freeFixed.begin(), freeFixed.end());
+    for (int k = 0; k < (system_.held.cols() > 0 ? 3 : 1); ++k) {
+      const auto isHeld = [&](Eigen::Index i) { return system_.isHeldAlong(k, free_[i]); };
+      Sparse own = products, across = toFixed_;
+      own.prune([&](Eigen::Index row, Eigen::Index column, double) {
+        return row == column || (!isHeld(row) && !isHeld(column));
+      });
+      across.prune([&](Eigen::Index row, Eigen::Index, double) { return !isHeld(row); });
+      products_.push_back(std::make_unique<HatProducts>(own));
+      shared_.push_back(products_.back()->solve(Eigen::MatrixXd(across)));
+    }
     inverseAreas_.resize(free_.size());
     for (std::size_t i = 0; i < free_.size(); ++i)
       inverseAreas_[i] = system_.length * system_.length / mesh_.vertexAreas()[free_[i]];
-    toFixed_.resize(free_.size(), system_.fixedVertices.size());
-    toFixed_.setFromTriplets(freeFixed.begin(), freeFixed.end());
-    shared_ = products_->solve(Eigen::MatrixXd(toFixed_));
   }
+
+  /// M along an axis, and M^-1 toFixed_.
+  const HatProducts& products(int axis) const {
+    return *products_[products_.size() > 1 ? axis : 0];
+  }
+  const Eigen::MatrixXd& shared(int axis) const { return shared_[shared_.size() > 1 ? axis : 0]; }
 
   /// By fixed vertices, and not by springs.
   bool isHeld() const { return !system_.fixedVertices.empty(); }
@@ -118,12 +134,14 @@ class Condensation {
 
   /// What is given, (-t, w, loads), where the body is moved rigidly by what holds it.
   Eigen::MatrixXd movedRigidly() const {
-    const Eigen::Index motions = isHeld() ? 6 : system_.loadCount;
+    // Where single components are held, a rigid motion of the support is none of the body.
+    const bool isFollowed = system_.held.cols() == 0;
+    const Eigen::Index motions = !isFollowed ? 0 : isHeld() ? 6 : system_.loadCount;
     Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), motions);
-    if (isHeld())
+    if (motions > 0 && isHeld())
       given.middleRows(hatRows_, 3 * system_.fixedVertices.size()) =
           motionsOf(system_.fixedVertices);
-    else
+    else if (motions > 0)
       given.middleRows(system_.loadRow(), motions).setIdentity();
     return given;
   }
@@ -132,7 +150,7 @@ class Condensation {
   Eigen::MatrixXd shownMotions(double share) const {
     Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh_);
     for (int k = 0; k < 3; ++k)
-      component(motions, k) = weighted(share, system_.hatProducts * component(motions, k));
+      component(motions, k) = weighted(share, k, system_.hatProducts * component(motions, k));
     return motions;
   }
 
@@ -150,24 +168,26 @@ class Condensation {
       } else if (wanted[c].kind == WantedColumn::Displacement) {
         set(hatRows_ + 3 * fixedNumber_[wanted[c].index], 1);
       } else {
-        const Eigen::VectorXd traction = spreadForce(wanted[c].index);
-        for (std::size_t h = 0; h < system_.hats.size(); ++h)
-          set(3 * static_cast<int>(h), -traction[freeNumber_[system_.hats[h].vertex]]);
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::VectorXd traction = spreadForce(wanted[c].index, k);
+          for (std::size_t h = 0; h < system_.hats.size(); ++h)
+            given(3 * h + k, 3 * c + k) = -traction[freeNumber_[system_.hats[h].vertex]];
+        }
       }
     }
     return given;
   }
 
   /// R (see computeFiniteElementGreensFunctions) with this share of M^-1, times #free rows.
-  Eigen::MatrixXd weighted(double share, const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd weighted(double share, int axis, const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd result = (1 - share) * (inverseAreas_.asDiagonal() * rows);
-    if (share > 0) result += share * products_->solve(rows);
+    if (share > 0) result += share * products(axis).solve(rows);
     return result;
   }
 
   /// The traction at free vertices that a unit force of one is spread to.
-  Eigen::VectorXd spreadForce(int vertex) const {
-    return weighted(shares_.load, Eigen::VectorXd::Unit(free_.size(), freeNumber_[vertex]));
+  Eigen::VectorXd spreadForce(int vertex, int axis) const {
+    return weighted(shares_.load, axis, Eigen::VectorXd::Unit(free_.size(), freeNumber_[vertex]));
   }
 
   /// The Schur complement times whatIsGiven, without forming the latter.
@@ -183,7 +203,7 @@ class Condensation {
         ofForces.setZero(free_.size(), schur.rows());
         for (std::size_t h = 0; h < system_.hats.size(); ++h)
           ofForces.row(freeNumber_[system_.hats[h].vertex]) += schur.row(3 * h + k);
-        ofForces = weighted(shares_.load, ofForces);
+        ofForces = weighted(shares_.load, k, ofForces);
       }
       for (std::size_t c = 0; c < wanted.size(); ++c) {
         const int index = wanted[c].index;
@@ -263,7 +283,7 @@ class Condensation {
   Eigen::MatrixXd displacements(const Eigen::Ref<const Eigen::MatrixXd>& answer) const {
     Eigen::MatrixXd result = meansUnderHats(answer);
     for (int k = 0; k < 3; ++k)
-      component(result, k) = weighted(shares_.displacement, component(result, k));
+      component(result, k) = weighted(shares_.displacement, k, component(result, k));
     return result;
   }
 
@@ -276,7 +296,7 @@ class Condensation {
     for (int k = 0; k < 3; ++k) {
       Eigen::MatrixXd shown = component(means, k);
       if (isHeld()) shown -= toFixed_ * component(held, k);
-      const Eigen::MatrixXd found = products_->solve(shown);
+      const Eigen::MatrixXd found = products(k).solve(shown);
       largest = std::max(largest, (found - component(expected, k)).cwiseAbs().maxCoeff());
     }
     return largest / expected.cwiseAbs().maxCoeff();
@@ -302,12 +322,12 @@ class Condensation {
       for (std::size_t i = 0; i < system_.fixedVertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
           columns(3 * system_.fixedVertices[i] + k, column + k) +=
-              shares_.load * shared_(freeNumber_[wanted.index], i);
+              shares_.load * shared(k)(freeNumber_[wanted.index], i);
     } else if (wanted.kind == WantedColumn::Displacement) {
       for (std::size_t i = 0; i < free_.size(); ++i)
         for (int k = 0; k < 3; ++k)
           columns(3 * free_[i] + k, column + k) -=
-              shares_.displacement * shared_(i, fixedNumber_[wanted.index]);
+              shares_.displacement * shared(k)(i, fixedNumber_[wanted.index]);
     }
   }
 
@@ -316,10 +336,11 @@ class Condensation {
   const SurfaceMesh& mesh_;
   std::vector<int> freeNumber_, fixedNumber_, free_;
   int hatRows_;
-  std::optional<HatProducts> products_;
+  // One for all axes, or where components are held one an axis: held hats are then none of M's.
+  std::vector<std::unique_ptr<HatProducts>> products_;
   Eigen::VectorXd inverseAreas_;
-  Sparse toFixed_;          // products of free vertices' hats with fixed ones'
-  Eigen::MatrixXd shared_;  // M^-1 toFixed_
+  Sparse toFixed_;  // products of free vertices' hats with fixed ones'
+  std::vector<Eigen::MatrixXd> shared_;
 };
 
 }  // namespace
