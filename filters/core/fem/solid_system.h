@@ -63,7 +63,6 @@ struct SolidSystem {
   /// #V by #V: integrals of the products of two vertices' hats, in squared lengths of the body.
   Eigen::SparseMatrix<double> hatProducts;
 
- private:
   /// Where a component of a node's displacement stands: nowhere where it is held, at one place, or
   /// in parts at two.
   struct NodePlace {
@@ -72,7 +71,10 @@ struct SolidSystem {
     int count() const { return place[0] < 0 ? 0 : place[1] < 0 ? 1 : 2; }
   };
   const NodePlace& placeOf(int node, int axis) const { return places_[3 * node + axis]; }
+  /// Of the pressure at a corner of a nearly incompressible cell.
+  int pressurePlace(const SolidBody& body, int cell, int corner) const;
 
+ private:
   void placeNodes(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
   void placePressures(const SolidBody& body);
   void addCells(const SolidBody& body, const SolidNodes& nodes, SolidElement element,
@@ -82,7 +84,6 @@ struct SolidSystem {
                  const std::vector<SolidProbe>& probes);
   void addSprings(const SurfaceMesh& mesh, const SolidBody& body);
   void addHats(const ElasticModel& model, const SolidBody& body, const SolidNodes& nodes);
-  int pressurePlace(const SolidBody& body, int cell, int corner) const;
 
   std::vector<NodePlace> places_;               // three a node
   std::vector<std::pair<int, int>> pressures_;  // (point, group), ascending

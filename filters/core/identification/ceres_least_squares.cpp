@@ -151,7 +151,8 @@ void solve(const LeastSquaresProblem& given, LeastSquaresSolution& solution, std
   ceres::Problem problem(shared);
   double* const place = evaluation.place.data();
   for (int g = 0; g < given.groups; ++g)
-    problem.AddResidualBlock(new Group(evaluation, g), loss.get(), place);
+    problem.AddResidualBlock(new Group(evaluation, g),
+                             g < given.groups - given.plainGroups ? loss.get() : nullptr, place);
   for (int i = 0; i < evaluation.place.size(); ++i) {
     if (std::isfinite(given.lower[i])) problem.SetParameterLowerBound(place, i, given.lower[i]);
     if (std::isfinite(given.upper[i])) problem.SetParameterUpperBound(place, i, given.upper[i]);
@@ -161,7 +162,7 @@ void solve(const LeastSquaresProblem& given, LeastSquaresSolution& solution, std
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 200;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = given.tolerance;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-10;
   options.callbacks.push_back(&watch);

@@ -16,8 +16,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kFullRank = 1e-9;  // of singular values, columns scaled to one
-constexpr double kLargestGradient = 1e-3;
+constexpr double kFullRank = 1e-9;         // of singular values, columns scaled to one
+constexpr double kLargestGradient = 1e-3;  // where the tolerance is not what bounds it
 constexpr double kAtBound = 1e-9;
 
 /// Beside the library that this is compiled into, or wherever libraries are looked for.
@@ -81,7 +81,7 @@ LeastSquaresSolution solveLeastSquares(const LeastSquaresProblem& problem) {
   solve(problem, solution, failure);
   if (!failure.empty()) throw NotConverged(failure, solution.parameters);
   inspect(problem, solution);
-  if (solution.gradient > kLargestGradient)
+  if (solution.gradient > std::max(kLargestGradient, 3 * std::sqrt(problem.tolerance)))
     throw NotConverged(
         sentence("the slope left is ", shortly(solution.gradient), " of the residuals"),
         solution.parameters);

@@ -35,8 +35,10 @@ inline RobustLoss robustLossNamed(const std::string& name) {
 struct LeastSquaresProblem {
   Eigen::VectorXd start, lower, upper;  ///< #parameters; bounds may be infinite
   int groups = 0;                       ///< residuals over 3
+  int plainGroups = 0;                  ///< of the last, which count squared whatever the loss
   RobustLoss loss = RobustLoss::None;
-  double scale = 1;  ///< the norm of a group up to which the loss is about quadratic
+  double scale = 1;          ///< the norm of a group up to which the loss is about quadratic
+  double tolerance = 1e-12;  ///< relative change of the sum of losses that ends it
 
   /// @param residuals  3 #groups, set.
   /// @param jacobian   3 #groups by #parameters, set if not null.

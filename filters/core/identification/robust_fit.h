@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "identification/least_squares.h"
+#include "identification/material_identification.h"
+#include "identification/measurements.h"
+#include "progress.h"
+
+namespace palpate {
+
+/// Displacements at markers as a function of unknowns.
+struct DisplacementModel {
+  Eigen::VectorXd lower, upper;  ///< #unknowns; may be infinite
+  /// #unknowns: 1 / variance about 0 of what is known of each before anything is measured; 0 for
+  /// nothing.
+  Eigen::VectorXd precision;
+  /// 3 #markers, m. The derivatives, 3 #markers by #unknowns, are set if not null.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& unknowns, Eigen::MatrixXd* jacobian)>
+      displacements;
+  double tolerance = 1e-12;  ///< LeastSquaresProblem
+  /// Whether evaluations are so dear that what is left out is judged by the derivatives at the end.
+  bool isDear = false;
+
+  int count() const { return static_cast<int>(lower.size()); }
+};
+
+/// The unknowns of a model by a table of measurements, some of which may be wrong.
+class RobustFit {
+ public:
+  /// @param loss  how residuals count while outliers are looked for; those found are then left
+  ///              out. None takes all as they are.
+  /// @throws std::invalid_argument if there are fewer measurements than unknowns of which nothing
+  ///         is known.
+  RobustFit(DisplacementModel model, const Measurements& measurements, RobustLoss loss,
+            const Progress& progress);
+
+  /// By 1 / E the linear least squares' solution.
+  /// @param unit  displacements of Young's modulus 1 Pa, 3 #markers.
+  /// @return E, Pa.
+  /// @throws std::invalid_argument if nothing moves, or all against the forces.
+  double modulusBy(const Eigen::VectorXd& unit) const;
+
+  /// @throws as solveLeastSquares, and as the constructor.
+  void run(const Eigen::VectorXd& start);
+
+  const Eigen::VectorXd& unknowns() const { return unknowns_; }
+  const LeastSquaresSolution& solution() const { return solution_; }
+  /// 3 #markers: 1 / standard deviation, 0 where not measured or an outlier.
+  Eigen::VectorXd weights() const { return inlierWeights() / scale_; }
+  /// Of unknowns that the measurements determine, and not what was known before.
+  double determinedCount() const;
+
+  /// Sets residuals, outliers, probes, noise and misfit, with what is doubtful in these.
+  void describe(MaterialIdentification& result) const;
+
+  /// The relative error of displacements under probes that the unknowns were not identified from;
+  /// of one probe, of markers. -1 where that cannot be told.
+  double holdOutError(int folds) const;
+
+ private:
+  int markerCount() const { return static_cast<int>(isOutlier_.size()); }
+  Eigen::VectorXd residualsAt(const Eigen::VectorXd& unknowns) const {
+    return measured_ - model_.displacements(unknowns, nullptr);
+  }
+  LeastSquaresSolution solve(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
+                             RobustLoss loss) const;
+  double roundingOf(const Eigen::VectorXd& weights) const;
+  double robustScale() const;
+  double scaleOf(const Eigen::VectorXd& weights) const;
+  double freedomOf(const Eigen::VectorXd& weights) const;
+  Eigen::VectorXd inlierWeights() const;
+  bool markOutliers();
+  void settle(const Eigen::VectorXd& weights, RobustLoss loss);
+  void requireEnough() const;
+  void describeProbes(MaterialIdentification& result) const;
+  Eigen::VectorXd residualsWithout(const Eigen::VectorXd& kept) const;
+  Eigen::VectorXd linearResidualsWithout(const Eigen::VectorXd& kept,
+                                         const Eigen::MatrixXd& jacobian) const;
+
+  DisplacementModel model_;
+  const Measurements& measurements_;
+  RobustLoss loss_;
+  Progress progress_;
+  int unknownCount_;                    // of which nothing is known before
+  Eigen::VectorXd measured_, weights_;  // 3 #markers; weights 0 where not measured
+  std::vector<bool> isOutlier_;
+  Eigen::VectorXd unknowns_, residuals_;
+  double scale_ = 1;  // standard deviation of weighted residuals
+  LeastSquaresSolution solution_;
+};
+
+}  // namespace palpate

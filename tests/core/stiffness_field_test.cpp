@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/stiffness_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/modulus_response.h"
+#include "identification/stiffness_modes.h"
+#include "support/refusals.h"
+#include "support/rigs.h"
+#include "support/solids.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr double kYoung = 2e4, kPoisson = 0.3;
+const Eigen::Vector3d kBall(0.5, 0.5, 0.6);
+
+bool base(const Eigen::Vector3d& x) {
+  return x.z() < 1e-9;
+}
+
+Eigen::Matrix3Xd centresOf(const TetrahedralMesh& mesh) {
+  Eigen::Matrix3Xd centres(3, mesh.cellCount());
+  for (int c = 0; c < mesh.cellCount(); ++c)
+    centres.col(c) = mesh.points()(Eigen::all, mesh.tetrahedra().col(c)).rowwise().mean();
+  return centres;
+}
+
+/// A cube in whose upper middle a ball is of another stiffness, by this factor.
+SolidProblem cubeWithBall(int divisions, double factor, double poisson = kPoisson) {
+  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh();
+  const Eigen::Matrix3Xd centres = centresOf(mesh);
+  std::vector<int> materials;
+  for (const auto& centre : centres.colwise()) materials.push_back((centre - kBall).norm() < 0.37);
+  const ElasticModel model = makeModel(boundaryOf(mesh), base, 1, poisson);
+  return SolidProblem{model, SolidBody(model.mesh(), mesh,
+                                       {Elasticity(Material(kYoung, poisson)),
+                                        Elasticity(Material(kYoung * factor, poisson))},
+                                       materials)};
+}
+
+/// What a field is identified with: a coarser cube of one stiffness.
+struct Prior {
+  TetrahedralMesh mesh;
+  ElasticModel model;
+
+  explicit Prior(int divisions)
+      : mesh(kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh()),
+        model(makeModel(boundaryOf(mesh), base, 1, kPoisson)) {}
+
+  StiffnessField identified(const Measurements& m, const StiffnessFieldOptions& options,
+                            int modes = 50, double length = 0.3) const {
+    const RigSetup rig = setupOn(model, m);
+    const ModulusResponse response(model, mesh,
+                                   stiffnessModes(centresOf(mesh), mesh.volumes(), length, modes),
+                                   nodalForces(rig.setup, m, model.mesh().vertexAreas()));
+    return identifyStiffnessField(
+        [&](const Eigen::VectorXd& modulus, double poisson, bool derivatives,
+            const Progress& progress) {
+          auto answer = response.at(modulus, poisson, derivatives, progress);
+          return MovedSurface{std::move(answer.displacements), std::move(answer.byModes)};
+        },
+        response.modes(), mesh.volumes(), rig.setup, m, options);
+  }
+
+  /// Relative error of the displacements that a body of these moduli predicts.
+  double errorOf(const Eigen::VectorXd& modulus, double poisson, const Measurements& m) const {
+    const RigSetup rig = setupOn(model, m);
+    const ModulusResponse response(model, mesh, Eigen::MatrixXd(mesh.cellCount(), 0),
+                                   nodalForces(rig.setup, m, model.mesh().vertexAreas()));
+    const Eigen::MatrixXd moved = response.at(modulus, poisson, false).displacements;
+    double error = 0, size = 0;
+    for (int i = 0; i < rig.setup.markerCount(); ++i) {
+      Eigen::Vector3d here = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k)
+        here += rig.setup.weights[i][k] *
+                moved.col(rig.setup.probeOf[i]).segment<3>(3 * rig.setup.nodes[i][k]);
+      error += (here - m.displacements[i].displacement).squaredNorm();
+      size += m.displacements[i].displacement.squaredNorm();
+    }
+    return std::sqrt(error / size);
+  }
+};
+
+/// Probes as they are fitted, and others without noise to be predicted.
+struct Rig {
+  Measurements fitted, heldOut;
+
+  explicit Rig(const SolidProblem& truth, int probes = 20) {
+    const auto greens = truth.greens();
+    RigSettings settings;
+    settings.radius = 0.3;
+    settings.probes = probes;
+    fitted = measuredOn(greens, truth.model.mesh(), settings);
+    settings.noise = 0;
+    settings.seed = 77;
+    heldOut = measuredOn(greens, truth.model.mesh(), settings);
+  }
+};
+
+TEST(StiffnessModes, MakeTheFieldThatTheyAreSaidToMake) {
+  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {4, 4, 4}).mesh();
+  const Eigen::Matrix3Xd centres = centresOf(mesh);
+  const Eigen::MatrixXd modes = stiffnessModes(centres, mesh.volumes(), 0.4, 200);
+  const Eigen::MatrixXd covariance = modes * modes.transpose();
+  for (int i = 0; i < mesh.cellCount(); i += 17)
+    for (int j = 0; j < mesh.cellCount(); j += 13)
+      EXPECT_NEAR(covariance(i, j),
+                  std::exp(-(centres.col(i) - centres.col(j)).squaredNorm() / (2 * 0.16)), 1e-3);
+  // Leading ones first, orthogonal over the volume.
+  const Eigen::MatrixXd gram = modes.transpose() * mesh.volumes().asDiagonal() * modes;
+  for (int k = 1; k < modes.cols(); ++k) EXPECT_LE(gram(k, k), gram(k - 1, k - 1) * (1 + 1e-9));
+  EXPECT_LE((gram - Eigen::MatrixXd(gram.diagonal().asDiagonal())).norm(), 1e-9 * gram.norm());
+  EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 0, 5); }, "positive, not 0"));
+  EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 1, 0); }, "at least one"));
+}
+
+class HiddenBalls : public ::testing::TestWithParam<double> {};
+
+// Where the prior is a body of the right modulus but for the ball. Another mesh than the rig's,
+// which alone makes 1 % of difference.
+TEST_P(HiddenBalls, ProbesLeftOutArePredicted) {
+  const Rig rig(cubeWithBall(9, GetParam()));
+  const Prior prior(8);
+  const Eigen::VectorXd uniform = Eigen::VectorXd::Constant(prior.mesh.cellCount(), kYoung);
+  StiffnessFieldOptions options;
+  options.poissonRatio = kPoisson;
+  const StiffnessField found = prior.identified(rig.fitted, options);
+  EXPECT_GT(prior.errorOf(uniform, kPoisson, rig.heldOut), 0.2);
+  EXPECT_LE(prior.errorOf(found.modulus, kPoisson, rig.heldOut), 0.03);
+  EXPECT_TRUE(found.fit.outliers.size() < 5) << found.fit.outliers.size();
+  // The ball is seen where it is.
+  double inside = 0, outside = 0, volumes[2] = {0, 0};
+  const Eigen::Matrix3Xd centres = centresOf(prior.mesh);
+  for (int c = 0; c < prior.mesh.cellCount(); ++c) {
+    const double away = (centres.col(c) - kBall).norm();
+    if (away < 0.2) inside += std::log(found.modulus[c]), ++volumes[0];
+    if (away > 0.5) outside += std::log(found.modulus[c]), ++volumes[1];
+  }
+  const double ratio = std::exp(inside / volumes[0] - outside / volumes[1]);
+  EXPECT_GT(GetParam() > 1 ? ratio : 1 / ratio, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, HiddenBalls, ::testing::Values(0.1, 10));
+
+// Of a uniform body nothing is made up: the field is uniform but for its own deviations.
+TEST(StiffnessField, UniformBodiesStayUniform) {
+  const Rig rig(cubeWithBall(6, 1), 10);
+  const Prior prior(5);
+  StiffnessFieldOptions options;
+  options.poisson = true;
+  const StiffnessField found = prior.identified(rig.fitted, options, 30);
+  ASSERT_EQ(found.fit.parameters.size(), 2u);
+  EXPECT_NEAR(found.fit.parameters[0].value / kYoung, 1, 0.05);
+  EXPECT_NEAR(found.fit.parameters[1].value, kPoisson, 0.03);
+  const Eigen::ArrayXd off = (found.modulus.array() / kYoung).log();
+  EXPECT_GE((off.abs() < 2 * found.deviation.array()).cast<double>().mean(), 0.9);
+  EXPECT_LT(found.determined, 32);
+  EXPECT_GT(found.determined, 5);
+  // More is known where more was measured: the deviation is below what was said before.
+  EXPECT_LT(found.deviation.mean(), 0.7 * options.deviation);
+}
+
+TEST(StiffnessField, OutliersAreFoundAndLeftOut) {
+  const SolidProblem truth = cubeWithBall(6, 0.2);
+  Rig rig(truth, 10);
+  const Prior prior(5);
+  StiffnessFieldOptions options;
+  options.folds = 0;
+  const StiffnessField before = prior.identified(rig.fitted, options, 30);
+  for (int i = 3; i < 500; i += 20)
+    rig.fitted.displacements[i].displacement += Eigen::Vector3d(0.01, -0.01, 0.01);
+  const StiffnessField found = prior.identified(rig.fitted, options, 30);
+  for (int i = 3; i < 500; i += 20)
+    EXPECT_TRUE(std::binary_search(found.fit.outliers.begin(), found.fit.outliers.end(), i)) << i;
+  EXPECT_LE(std::abs(std::log(found.fit.parameters[0].value / before.fit.parameters[0].value)),
+            found.fit.parameters[0].deviation / found.fit.parameters[0].value);
+}
+
+TEST(StiffnessField, WhatCannotBeIsRefused) {
+  const Rig rig(cubeWithBall(4, 1), 2);
+  const Prior prior(3);
+  const auto refused = [&](const auto& change, const char* words) {
+    StiffnessFieldOptions options;
+    Measurements m = rig.fitted;
+    change(options, m);
+    return isRefused([&] { prior.identified(m, options, 5); }, words);
+  };
+  using Options = StiffnessFieldOptions;
+  EXPECT_TRUE(refused([](Options& o, Measurements&) { o.deviation = 0; }, "deviation of ln E"));
+  EXPECT_TRUE(refused([](Options& o, Measurements&) { o.poissonRatio = 0.6; }, "Poisson"));
+  EXPECT_TRUE(refused(
+      [](Options& o, Measurements&) {
+        o.poisson = true;
+        o.poissonUpper = 0.5;
+      },
+      "lower < upper < 0.4999"));
+  EXPECT_TRUE(refused(
+      [](Options&, Measurements& m) {
+        for (auto& d : m.displacements) d.displacement = -d.displacement;
+      },
+      "against the forces"));
+}
+
+}  // namespace
+}  // namespace palpate::test
