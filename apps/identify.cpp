@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <read_files.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkGreensFunctionIdentification.h>
@@ -9,7 +10,9 @@
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
 #include <vtkSolidBoundary.h>
+#include <vtkStiffnessFieldIdentification.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -21,6 +24,7 @@
 #include "finite_check.h"
 #include "support_options.h"
 #include "terminal.h"
+#include "whole_file.h"
 
 namespace palpate::app {
 namespace {
@@ -29,12 +33,13 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
   std::string input, output, measurements, method = "bem", loss = "cauchy";
-  std::string lengthUnit = "m", forceUnit = "N";
+  std::string lengthUnit = "m", forceUnit = "N", field;
   SupportOptions support;
   double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4, placeTolerance = 0.02;
   std::vector<double> poissonRange;
   bool yieldingSupport = false, isRegistered = false, noEstimate = false;
-  int folds = 5, nextProbes = 0, threads = 0;
+  double fieldLength = 0, fieldDeviation = 1;
+  int folds = 5, nextProbes = 0, threads = 0, modes = 50;
 };
 
 void addUnknowns(CLI::App& command, Options& o) {
@@ -65,6 +70,34 @@ void addUnknowns(CLI::App& command, Options& o) {
       ->group(group);
 }
 
+void addField(CLI::App& command, Options& o) {
+  const char* const group = "Stiffness that varies inside (--method fem)";
+  CLI::Option* field = command.add_option(
+      "--field", o.field, "Identify how it varies, and write the tetrahedra with it here, .vtu");
+  requireWritable(field, "fields", ".vtu");
+  field->group(group);
+  command.add_option("--modes", o.modes, "Of the field; more resolve smaller places")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(field)
+      ->group(group);
+  command
+      .add_option("--field-length", o.fieldLength,
+                  "Over what stiffness varies, m; by default .15 of the diagonal")
+      ->check(isFinite())
+      ->check(CLI::PositiveNumber)
+      ->needs(field)
+      ->group(group);
+  command
+      .add_option("--field-deviation", o.fieldDeviation,
+                  "Standard deviation of ln E that is expected")
+      ->check(isFinite())
+      ->check(CLI::Range(0.01, 10.0))
+      ->capture_default_str()
+      ->needs(field)
+      ->group(group);
+}
+
 void addOptions(CLI::App& command, Options& o) {
   command
       .add_option("input", o.input,
@@ -87,6 +120,7 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("--force-unit", o.forceUnit, "Of forces: N, mN, kN, MN, lbf or kgf")
       ->capture_default_str();
   addUnknowns(command, o);
+  addField(command, o);
   o.support.addPlacesTo(command);
   command.add_option("--method", o.method, "bem, or fem: tetrahedra inside the surface")
       ->check(CLI::IsMember({"bem", "fem"}))
@@ -247,6 +281,25 @@ void printNextProbes(vtkPolyData* model) {
   }
 }
 
+void printField(vtkPolyData* model, vtkUnstructuredGrid* grid) {
+  double moduli[2], deviations[2];
+  grid->GetCellData()->GetArray("YoungsModulus")->GetRange(moduli);
+  grid->GetCellData()->GetArray("LogModulusDeviation")->GetRange(deviations);
+  printRow("Young's modulus in the body, Pa", number(moduli[0], 3) + " to " + number(moduli[1], 3));
+  printRow("deviation of its logarithm",
+           number(deviations[0], 2) + " to " + number(deviations[1], 2));
+  printRow("unknowns that are determined", number(fieldNumber(model, "DeterminedUnknowns", 0), 3));
+}
+
+void writeField(vtkUnstructuredGrid* grid, const std::string& path) {
+  replaceFile(path, [&](const std::string& name) {
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetFileName(name.c_str());
+    writer->SetInputData(grid);
+    if (!writer->Write()) throw std::runtime_error(path + " could not be written");
+  });
+}
+
 void printModel(vtkPolyData* model, const std::string& rowWord) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
@@ -260,8 +313,9 @@ void printModel(vtkPolyData* model, const std::string& rowWord) {
   printProbes(model);
   printRow("outliers", outliersOf(model, rowWord));
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
-    printRow("error at probes left out", percent(error));
-  printRow("error of interpolation", percent(fieldNumber(model, "ResponseInterpolationError", -1)));
+    printRow("error at probes left out", percent(error) + ", noise and all");
+  if (const double error = fieldNumber(model, "ResponseInterpolationError", 0); error > 0)
+    printRow("error of interpolation", percent(error));
   printNextProbes(model);
   if (const double error = fieldNumber(model, "ErrorEstimate", -1); error >= 0)
     printRow("error of the model itself",
@@ -276,12 +330,23 @@ void addIdentify(CLI::App& program) {
       "identify", "Identify a body's material, and its Green's functions, from measurements");
   addOptions(*command, *options);
   command->callback([options] {
-    vtkNew<vtkGreensFunctionIdentification> filter;
+    const bool isField = !options->field.empty();
+    if (isField && options->method != "fem")
+      throw std::invalid_argument("a field takes finite elements: add --method fem");
+    vtkNew<vtkStiffnessFieldIdentification> ofField;
+    vtkNew<vtkGreensFunctionIdentification> ofMaterial;
+    vtkGreensFunctionIdentification* const filter = isField ? ofField.Get() : ofMaterial.Get();
+    ofField->SetNumberOfModes(options->modes);
+    ofField->SetFieldLength(options->fieldLength);
+    ofField->SetFieldDeviation(options->fieldDeviation);
     set(filter, *options);
     setInput(filter, *options);
     const auto model = run(filter);
+    auto* const field = vtkUnstructuredGrid::SafeDownCast(ofField->GetOutputDataObject(1));
+    if (isField) writeField(field, options->field);
     writeSurface(model, options->output);
     printModel(model, isPolydata(*options) ? "tuples" : "lines");
+    if (isField) printField(model, field);
     printWarnings(model);
   });
 }

@@ -21,7 +21,12 @@ from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
-from .identification import identify, measurement_table, simulate_measurements
+from .identification import (
+    identify,
+    identify_field,
+    measurement_table,
+    simulate_measurements,
+)
 from .imports import import_compliance, import_stiffness
 from .loads import foundation, gravity
 from .precomputation import precompute
@@ -40,6 +45,7 @@ __all__ = [
     "greens_function_nodes",
     "greens_functions",
     "identify",
+    "identify_field",
     "import_compliance",
     "import_stiffness",
     "measurement_table",

@@ -19,13 +19,17 @@ from .arrays import as_vtk
 from .errors import Error, run
 from .files import path_of
 from .imports import is_path
-from .PalpateElastostatics import vtkGreensFunctionIdentification, vtkRigSimulation
+from .PalpateElastostatics import (
+    vtkGreensFunctionIdentification,
+    vtkRigSimulation,
+    vtkStiffnessFieldIdentification,
+)
 from .precomputation import boundary_of, computed, posed
 
 LOSSES = {"none": 0, "huber": 1, "cauchy": 2, "tukey": 3}
 MOST = 2**31 - 1
 
-__all__ = ["identify", "measurement_table", "simulate_measurements"]
+__all__ = ["identify", "identify_field", "measurement_table", "simulate_measurements"]
 
 
 def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
@@ -109,12 +113,97 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     (True, True)
     """
     choice(method, {"bem": 0, "fem": 1}, "method")
-    if isinstance(surface, vtkUnstructuredGrid):
-        if method != "fem" or volume is not None:
-            raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
-        surface, volume = boundary_of(surface), surface
+    if isinstance(surface, vtkUnstructuredGrid) and (method != "fem" or volume is not None):
+        raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
     filter = vtkGreensFunctionIdentification()
     filter.SetMethod(method == "fem")
+    surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
+    set_unknowns(filter, poisson, poisson_range)
+    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads)
+    filter.SetLargestRatio(number(largest_ratio, "largest_ratio"))
+    filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    filter.SetNumberOfNextProbes(whole_number(next_probes, "next_probes", 100))
+    filter.SetInterpolationTolerance(number(interpolation_tolerance, "interpolation_tolerance"))
+    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
+    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))  # what is identified takes their place
+    return computed(filter, progress)
+
+
+def identify_field(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, volume=None,
+                   modes=50, length=None, deviation=1.0, register=False, loss="cauchy", folds=5,
+                   length_unit="m", force_unit="N", place_tolerance=0.02, smooth_angle=30.0,
+                   reciprocal=True, threads=0, progress=None):
+    """Identify a body whose stiffness varies inside from displacements under known forces.
+
+    Young's modulus is a random field: its logarithm varies by `deviation` over `length`. The field that
+    is most probable, given the measurements, is found in its leading modes; places that no measurement
+    sees stay as the rest is. Finite elements only.
+
+    Parameters
+    ----------
+    surface, measurements, poisson, poisson_range, fixed, volume, register, loss, folds, length_unit
+        As in `identify` with method="fem".
+    force_unit, place_tolerance, smooth_angle, reciprocal, threads, progress
+        As in `identify`.
+    modes : int
+        Of the field, up to 1000. More resolve smaller places; time grows with their number.
+    length : float, optional
+        Over which stiffness varies, m; by default 0.15 of the surface's diagonal.
+    deviation : float
+        Standard, of ln E, expected before anything is measured.
+
+    Returns
+    -------
+    model : vtkPolyData
+        As of `identify`; where the filling with tetrahedra needs other triangles, on these.
+        `IdentifiedParameters` are of the mean, `DeterminedUnknowns` says how many of the field's
+        unknowns the measurements determine.
+    volume : vtkUnstructuredGrid
+        The tetrahedra with cell arrays `YoungsModulus` (Pa), `PoissonRatio` and `LogModulusDeviation`, the
+        standard deviation of ln E that is left. `precompute` takes it as its surface.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the table, by row, or what the data do not determine.
+    Aborted
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.read(palpate.example("nodule"))
+    >>> body = palpate.precompute(nodule, young=20e3, poisson=0.4, estimate_error=False)
+    >>> table = palpate.simulate_measurements(body, noise=0.01)
+    >>> model, volume = palpate.identify_field(nodule, table, poisson=0.4, modes=10, folds=0)
+    >>> int(palpate.array(volume, "YoungsModulus").size) == volume.GetNumberOfCells()
+    True
+    """
+    filter = vtkStiffnessFieldIdentification()
+    surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
+    set_unknowns(filter, poisson, poisson_range)
+    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads)
+    modes = whole_number(modes, "modes", 1000)
+    if modes == 0:
+        raise Error("a field takes at least one mode, not 0")
+    filter.SetNumberOfModes(modes)
+    if length is not None:
+        length = number(length, "length")
+        if not length > 0:
+            raise Error(f"length must be positive, not {length:g}")
+        filter.SetFieldLength(length)
+    filter.SetFieldDeviation(number(deviation, "deviation"))
+    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))
+    model = computed(filter, progress)
+    return model, filter.GetOutputDataObject(1)
+
+
+def set_inputs(filter, surface, volume, measurements, length_unit, force_unit):
+    """Volume and table; gives back the surface."""
+    if isinstance(surface, vtkUnstructuredGrid):
+        if volume is not None:
+            raise Error("tetrahedra in place of a surface go without volume")
+        surface, volume = boundary_of(surface), surface
     if volume is not None:
         if not isinstance(volume, vtkUnstructuredGrid):
             raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")
@@ -130,21 +219,17 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
         if not isinstance(unit, str):
             raise Error(f"a unit must be a string, not {type(unit).__name__}")
         set_unit(unit)
-    set_unknowns(filter, poisson, poisson_range)
-    filter.SetLargestRatio(number(largest_ratio, "largest_ratio"))
-    filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    return surface
+
+
+def set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads):
     filter.SetRegister(flag(register, "register"))
     filter.SetLoss(choice(loss, LOSSES, "loss"))
     filter.SetNumberOfFolds(whole_number(folds, "folds", 1000))
-    filter.SetNumberOfNextProbes(whole_number(next_probes, "next_probes", 100))
-    filter.SetInterpolationTolerance(number(interpolation_tolerance, "interpolation_tolerance"))
     filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))
     filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     filter.SetReciprocal(flag(reciprocal, "reciprocal"))
-    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
     filter.SetNumberOfThreads(whole_number(threads, "threads", 1024))
-    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))  # what is identified takes their place
-    return computed(filter, progress)
 
 
 def set_unknowns(filter, poisson, poisson_range):

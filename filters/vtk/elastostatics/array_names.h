@@ -185,6 +185,7 @@ constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row b
 constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
 constexpr const char* RegistrationDeviation = "RegistrationDeviation"; // 6: about x, y, z (rad), along (m)
 constexpr const char* RegistrationDistance = "RegistrationDistance"; // places from the surface, m
+constexpr const char* DeterminedUnknowns = "DeterminedUnknowns"; // of a field's: by measurements
 // A tuple a probe that was proposed: its vertex, its force, and the standard deviations that the
 // parameters would have with all up to it.
 constexpr const char* NextProbeVertex = "NextProbeVertex";         // id
@@ -193,6 +194,9 @@ constexpr const char* NextProbeDeviations = "NextProbeDeviations"; // in the par
 
 // Cell data of a volume mesh of several materials, of vtkGreensFunctionIdentification.
 constexpr const char* MaterialRegion = "MaterialRegion"; // int from 0
+
+// Cell data of the volume that vtkStiffnessFieldIdentification gives, besides YoungsModulus and PoissonRatio.
+constexpr const char* LogModulusDeviation = "LogModulusDeviation"; // standard, of ln E
 
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
@@ -212,7 +216,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
-  RegistrationDeviation, RegistrationDistance, NextProbeVertex, NextProbeForce, NextProbeDeviations };
+  RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of one table of measurements.
 constexpr const char* MeasurementTable[] = { MeasurementProbe, MeasurementRow, MeasurementVertex,
   MeasurementPoint, MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint,

@@ -5,14 +5,13 @@
 
 #include "array_names.h"
 #include "bem/boundary_element_method.h"
-#include "contact/mask_settings.h"
-#include "contact/point_load.h"
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "identification/measurement_file.h"
 #include "identification/next_probes.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
+#include "probed_surface.h"
 #include "sentence.h"
 #include "units.h"
 #include "volume_arrays.h"
@@ -66,33 +65,6 @@ std::vector<int> regionsOf(vtkUnstructuredGrid* grid, int& count)
     }
   }
   return regions;
-}
-
-/// Where a surface is pressed and looked at.
-struct ProbedSurface
-{
-  palpate::MeasuredSetup Setup;
-  std::vector<Eigen::Vector3d> Normals; // of the contacts
-};
-
-ProbedSurface probedSurface(
-  const palpate::ElasticModel& model, const palpate::Measurements& measurements, double tolerance)
-{
-  const palpate::SurfaceMesh& mesh = model.mesh();
-  const palpate::BoundaryConditions& conditions = model.conditions();
-  const palpate::MeasuredPlaces places =
-    palpate::placesOn(mesh, conditions, measurements, tolerance);
-  ProbedSurface probed;
-  std::vector<palpate::SpreadForce> loads;
-  for (std::size_t p = 0; p < places.contacts.size(); ++p)
-  {
-    const auto masks = palpate::makeMasks(
-      mesh, conditions, { palpate::MaskKind::Linear, measurements.probes[p].radius });
-    loads.push_back(palpate::pointLoad(*masks, mesh, conditions, places.contacts[p]));
-    probed.Normals.push_back(mesh.triangleNormals().col(places.contacts[p].triangle));
-  }
-  probed.Setup = palpate::measuredSetup(mesh, measurements, places, std::move(loads));
-  return probed;
 }
 } // namespace
 
@@ -205,6 +177,19 @@ palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOf(vtkPolyDat
                : palpate::readMeasurementFile(this->MeasurementFileName, units);
 }
 
+palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOn(const palpate::SurfaceMesh& mesh,
+  vtkPolyData* table, std::optional<palpate::Registration>& registration)
+{
+  palpate::Measurements measurements = this->MeasurementsOf(table);
+  if (!this->Register)
+  {
+    return measurements;
+  }
+  registration = palpate::registerToSurface(
+    mesh, measurements, [this] { return this->ReportProgress(0, "register"); });
+  return palpate::registered(measurements, *registration);
+}
+
 vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   vtkPolyData* surface, vtkUnstructuredGrid* grid) const
 {
@@ -243,13 +228,12 @@ vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   return body;
 }
 
-palpate::IdentificationOptions vtkGreensFunctionIdentification::OptionsFor(const Body& body) const
+palpate::MaterialUnknowns vtkGreensFunctionIdentification::PoissonUnknown(bool isSolid) const
 {
-  palpate::IdentificationOptions options;
-  palpate::MaterialUnknowns& unknowns = options.unknowns;
+  palpate::MaterialUnknowns unknowns;
   unknowns.poisson = std::isnan(this->PoissonRatio);
   unknowns.poissonRatio = this->PoissonRatio;
-  if (body.Mesh)
+  if (isSolid)
   {
     unknowns.poissonUpper = SplitFrom - 1e-3;
   }
@@ -258,12 +242,20 @@ palpate::IdentificationOptions vtkGreensFunctionIdentification::OptionsFor(const
     unknowns.poissonLower = this->PoissonRange[0];
     unknowns.poissonUpper = this->PoissonRange[1];
   }
-  if (body.Mesh && unknowns.poisson && unknowns.poissonLower < SplitFrom &&
+  if (isSolid && unknowns.poisson && unknowns.poissonLower < SplitFrom &&
     unknowns.poissonUpper >= SplitFrom)
   {
     palpate::refuse("finite elements are of another kind from Poisson's ratio ", SplitFrom,
       " on: look for it below, or from there on");
   }
+  return unknowns;
+}
+
+palpate::IdentificationOptions vtkGreensFunctionIdentification::OptionsFor(const Body& body) const
+{
+  palpate::IdentificationOptions options;
+  palpate::MaterialUnknowns& unknowns = options.unknowns;
+  unknowns = this->PoissonUnknown(body.Mesh.has_value());
   unknowns.regions = body.Regions;
   unknowns.largestRatio = this->LargestRatio;
   unknowns.support = this->YieldingSupport;
@@ -277,14 +269,14 @@ palpate::MaterialIdentifier vtkGreensFunctionIdentification::IdentifierFor(const
   const palpate::Measurements& measurements, const palpate::Progress& progress) const
 {
   const palpate::SurfaceMesh& mesh = body.Given.mesh();
-  const ProbedSurface probed =
-    probedSurface(body.Given, measurements, this->PlaceTolerance * mesh.diagonal());
+  const palpate::convert::ProbedSurface probed = palpate::convert::probedSurface(
+    body.Given, measurements, this->PlaceTolerance * mesh.diagonal());
   return { [&](const std::vector<palpate::Material>& materials, const palpate::Progress& part)
     {
       const auto greens = body.Compute(materials, false, part).take();
-      return palpate::MeasuredResponse(*greens, probed.Setup, this->YieldingSupport);
+      return palpate::MeasuredResponse(*greens, probed.setup, this->YieldingSupport);
     },
-    probed.Setup, mesh.diagonal(), probed.Normals, this->OptionsFor(body), progress };
+    probed.setup, mesh.diagonal(), probed.normals, this->OptionsFor(body), progress };
 }
 
 void vtkGreensFunctionIdentification::ProposeProbes(const Body& body,
@@ -330,16 +322,11 @@ void vtkGreensFunctionIdentification::Compute(
     palpate::refuse("identification computes the Green's functions of all free vertices: leave columns "
                     "and patch columns out");
   }
-  palpate::Measurements measurements = this->MeasurementsOf(vtkPolyData::GetData(inputs[2]));
   const Body body = this->BodyOf(input, vtkUnstructuredGrid::GetData(inputs[1]));
   const palpate::SurfaceMesh& mesh = body.Given.mesh();
-  palpate::Registration registration;
-  if (this->Register)
-  {
-    registration = palpate::registerToSurface(
-      mesh, measurements, [&] { return this->ReportProgress(0, "register"); });
-    measurements = palpate::registered(measurements, registration);
-  }
+  std::optional<palpate::Registration> registration;
+  const palpate::Measurements measurements =
+    this->MeasurementsOn(mesh, vtkPolyData::GetData(inputs[2]), registration);
   const palpate::MaterialIdentifier identifier =
     this->IdentifierFor(body, measurements, progress.part(0, 0.6));
   const palpate::MaterialIdentification result =
@@ -365,9 +352,9 @@ void vtkGreensFunctionIdentification::Compute(
   {
     this->ProposeProbes(body, identifier, measurements, result, output, progress.part(0.8, 1));
   }
-  if (this->Register)
+  if (registration)
   {
-    convert::setRegistration(output, registration);
+    convert::setRegistration(output, *registration);
   }
   this->MarkPatches(input, model, output);
 }

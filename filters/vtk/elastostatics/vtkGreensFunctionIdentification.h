@@ -26,17 +26,21 @@
 
 #include "vtkGreensFunctionsAlgorithm.h"
 
-#include <limits> // for what is not given
-#include <string> // for names
+#include <limits>   // for what is not given
+#include <optional> // for registrations
+#include <string>   // for names
 
 class vtkUnstructuredGrid;
 namespace palpate
 {
 struct IdentificationOptions;
 struct MaterialIdentification;
+struct MaterialUnknowns;
 struct Measurements;
+struct Registration;
 class MaterialIdentifier;
 class Progress;
+class SurfaceMesh;
 }
 
 class PALPATEELASTOSTATICS_EXPORT vtkGreensFunctionIdentification : public vtkGreensFunctionsAlgorithm
@@ -159,6 +163,30 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs) override;
 
+  /**
+   * The measurements, in the surface's frame.
+   */
+  palpate::Measurements MeasurementsOn(const palpate::SurfaceMesh& mesh, vtkPolyData* table,
+    std::optional<palpate::Registration>& registration);
+
+  /**
+   * Poisson's ratio, or where it is looked for.
+   */
+  palpate::MaterialUnknowns PoissonUnknown(bool isSolid) const;
+
+  int Method = BOUNDARY_ELEMENTS;
+  int Loss = CAUCHY;
+  int NumberOfFolds = 5;
+  int NumberOfNextProbes = 0;
+  double PoissonRatio = std::numeric_limits<double>::quiet_NaN();
+  double PoissonRange[2] = { PoissonRatio, PoissonRatio };
+  double LargestRatio = 10;
+  double InterpolationTolerance = 1e-4;
+  double PlaceTolerance = 0.02;
+  bool YieldingSupport = false;
+  bool Register = false;
+  bool EstimateError = true;
+
 private:
   vtkGreensFunctionIdentification(const vtkGreensFunctionIdentification&) = delete;
   void operator=(const vtkGreensFunctionIdentification&) = delete;
@@ -173,18 +201,6 @@ private:
     const palpate::Measurements& measurements, const palpate::MaterialIdentification& result,
     vtkPolyData* output, const palpate::Progress& progress) const;
 
-  int Method = BOUNDARY_ELEMENTS;
-  int Loss = CAUCHY;
-  int NumberOfFolds = 5;
-  int NumberOfNextProbes = 0;
-  double PoissonRatio = std::numeric_limits<double>::quiet_NaN();
-  double PoissonRange[2] = { PoissonRatio, PoissonRatio };
-  double LargestRatio = 10;
-  double InterpolationTolerance = 1e-4;
-  double PlaceTolerance = 0.02;
-  bool YieldingSupport = false;
-  bool Register = false;
-  bool EstimateError = true;
   std::string MeasurementFileName, LengthUnit = "m", ForceUnit = "N";
 };
 

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "vtkStiffnessFieldIdentification.h"
+
+#include "array_names.h"
+#include "conversion.h"
+#include "fem/finite_element_method.h"
+#include "fem/modulus_response.h"
+#include "identification/registration.h"
+#include "identification/stiffness_field.h"
+#include "identification/stiffness_modes.h"
+#include "measurement_arrays.h"
+#include "model_arrays.h"
+#include "probed_surface.h"
+#include "sentence.h"
+#include "volume_arrays.h"
+
+#include "vtkCellData.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+vtkStandardNewMacro(vtkStiffnessFieldIdentification);
+
+namespace
+{
+constexpr double UsualLength = 0.15; // over the diagonal
+
+Eigen::Matrix3Xd centresOf(const palpate::TetrahedralMesh& mesh)
+{
+  Eigen::Matrix3Xd centres(3, mesh.cellCount());
+  for (int cell = 0; cell < mesh.cellCount(); ++cell)
+  {
+    centres.col(cell) =
+      mesh.points()(Eigen::all, mesh.tetrahedra().col(cell)).rowwise().mean();
+  }
+  return centres;
+}
+
+void addCellNumbers(vtkUnstructuredGrid* grid, const char* name, const Eigen::VectorXd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(values.size());
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  grid->GetCellData()->AddArray(array);
+}
+
+void setField(vtkUnstructuredGrid* grid, const palpate::TetrahedralMesh& mesh,
+  const palpate::StiffnessField& field)
+{
+  grid->Initialize();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& point : mesh.points().colwise())
+  {
+    points->InsertNextPoint(point.data());
+  }
+  grid->SetPoints(points);
+  grid->Allocate(mesh.cellCount());
+  for (const auto& cell : mesh.tetrahedra().colwise())
+  {
+    const vtkIdType corners[] = { cell[0], cell[1], cell[2], cell[3] };
+    grid->InsertNextCell(VTK_TETRA, 4, corners);
+  }
+  const double poisson = field.fit.materials.front().poissonRatio();
+  addCellNumbers(grid, palpate::arrays::YoungsModulus, field.modulus);
+  addCellNumbers(
+    grid, palpate::arrays::PoissonRatio, Eigen::VectorXd::Constant(mesh.cellCount(), poisson));
+  addCellNumbers(grid, palpate::arrays::LogModulusDeviation, field.deviation);
+}
+} // namespace
+
+vtkStiffnessFieldIdentification::vtkStiffnessFieldIdentification()
+{
+  this->SetNumberOfOutputPorts(2);
+  this->Method = FINITE_ELEMENTS;
+}
+
+void vtkStiffnessFieldIdentification::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfModes: " << this->NumberOfModes << "\n"
+     << indent << "FieldLength: " << this->FieldLength << "\n"
+     << indent << "FieldDeviation: " << this->FieldDeviation << "\n";
+}
+
+int vtkStiffnessFieldIdentification::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillOutputPortInformation(port, info);
+  }
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+void vtkStiffnessFieldIdentification::Compute(
+  vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
+{
+  namespace convert = palpate::convert;
+  const palpate::Progress progress(
+    [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
+  if (this->Method != FINITE_ELEMENTS)
+  {
+    palpate::refuse("stiffness that varies inside takes finite elements");
+  }
+  if (this->YieldingSupport || this->NumberOfNextProbes > 0 || this->PatchColumns ||
+    this->GetColumnNodes())
+  {
+    palpate::refuse("a field of stiffness is identified on a firm support, with the Green's functions of "
+                    "all free vertices, and proposes no further probes");
+  }
+  palpate::ElasticModel model =
+    convert::modelOf(input, this->SmoothAngle, palpate::Domain::Interior);
+  std::optional<palpate::TetrahedralMesh> mesh;
+  vtkSmartPointer<vtkPolyData> surface = input;
+  if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(inputs[1]))
+  {
+    mesh = convert::tetrahedraOf(grid);
+  }
+  else
+  {
+    const palpate::Tetrahedralization filled =
+      palpate::tetrahedralize(model.mesh(), 0, progress.part(0, 0.1).callback());
+    if (filled.lostTriangles > 0)
+    {
+      surface = convert::boundaryOf(filled, model.sharedMesh(), input);
+      model = convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior);
+    }
+    mesh = filled.mesh;
+  }
+  std::optional<palpate::Registration> registration;
+  const palpate::Measurements measurements =
+    this->MeasurementsOn(model.mesh(), vtkPolyData::GetData(inputs[2]), registration);
+  const double diagonal = model.mesh().diagonal();
+  const convert::ProbedSurface probed =
+    convert::probedSurface(model, measurements, this->PlaceTolerance * diagonal);
+  const palpate::ModulusResponse response(model, *mesh,
+    palpate::stiffnessModes(centresOf(*mesh), mesh->volumes(),
+      this->FieldLength == 0 ? UsualLength * diagonal : this->FieldLength, this->NumberOfModes),
+    palpate::nodalForces(probed.setup, measurements, model.mesh().vertexAreas()));
+
+  const palpate::MaterialUnknowns poisson = this->PoissonUnknown(true);
+  palpate::StiffnessFieldOptions options;
+  options.poisson = poisson.poisson;
+  options.poissonRatio = poisson.poissonRatio;
+  options.poissonLower = poisson.poissonLower;
+  options.poissonUpper = poisson.poissonUpper;
+  options.deviation = this->FieldDeviation;
+  options.loss = static_cast<palpate::RobustLoss>(this->Loss);
+  options.folds = this->NumberOfFolds;
+  const palpate::StiffnessField field = palpate::identifyStiffnessField(
+    [&](const Eigen::VectorXd& modulus, double ratio, bool derivatives, const palpate::Progress& part)
+    {
+      palpate::ModulusResponse::Answer answer = response.at(modulus, ratio, derivatives, part);
+      return palpate::MovedSurface{ std::move(answer.displacements), std::move(answer.byModes) };
+    },
+    response.modes(), mesh->volumes(), probed.setup, measurements, options, progress.part(0.1, 0.7));
+
+  const palpate::Material& mean = field.fit.materials.front();
+  const palpate::ElasticModel found(
+    model.sharedMesh(), mean, model.conditions(), model.smoothPatches());
+  palpate::FiniteElementOptions how;
+  how.reciprocal = this->Reciprocal;
+  palpate::ComputedGreensFunctions greens =
+    palpate::computeFiniteElementGreensFunctions(found,
+      response.body(field.modulus, mean.poissonRatio()), how, progress.part(0.7, 1).callback());
+  greens.info.source += palpate::sentence("; a field of ", response.modes().cols(),
+    " modes identified from ", measurements.displacements.size(), " displacements under ",
+    measurements.probes.size(), " probes");
+  std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  warnings.insert(warnings.end(), field.fit.warnings.begin(), field.fit.warnings.end());
+  vtkNew<vtkPolyData> computed;
+  convert::setGreensFunctions(computed, found, std::move(greens));
+  if (surface != input)
+  {
+    output->CopyStructure(surface);
+    output->GetPointData()->ShallowCopy(surface->GetPointData());
+    output->GetCellData()->ShallowCopy(surface->GetCellData());
+    convert::removeMeshResults(output);
+  }
+  convert::removeResponses(output);
+  convert::setFieldNumber(output, palpate::arrays::YoungsModulus, mean.youngsModulus());
+  convert::setFieldNumber(output, palpate::arrays::PoissonRatio, mean.poissonRatio());
+  convert::shareGreensFunctions(computed, output, mean.youngsModulus());
+  convert::setIdentification(output, field.fit, measurements);
+  convert::setFieldNumber(output, palpate::arrays::DeterminedUnknowns, field.determined);
+  if (registration)
+  {
+    convert::setRegistration(output, *registration);
+  }
+  this->MarkPatches(surface, found, output);
+  setField(vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1)), *mesh, field);
+}

@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: Palpate contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stiffness that varies inside, through filters, files, program and package."""
+
+import functools
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import palpate
+from palpate.arrays import as_vtk
+from support.refused import Refusals
+from support.solids import bar, set_cells
+from support.surfaces import points_of, run
+
+YOUNG, POISSON = 2e4, 0.3
+
+
+def held(divisions, upper=1.0):
+    """A bar held below, its upper half stiffer by a factor."""
+    grid = bar(divisions)
+    points = points_of(grid)
+    cells = palpate_cells(grid)
+    above = points[cells].mean(axis=1)[:, 2] > 1
+    set_cells(grid, YoungsModulus=np.where(above, upper * YOUNG, YOUNG),
+              PoissonRatio=np.full(len(cells), POISSON))
+    grid.GetPointData().AddArray(as_vtk((points[:, 2] == 0).astype(np.uint8), "BoundaryType", 1, np.uint8))
+    return grid
+
+
+def palpate_cells(grid):
+    return np.array([[grid.GetCell(c).GetPointId(k) for k in range(4)]
+                     for c in range(grid.GetNumberOfCells())])
+
+
+@functools.lru_cache(maxsize=None)
+def truth():
+    return palpate.precompute(held((4, 4, 8), 5.0), young=YOUNG, poisson=POISSON, method="fem",
+                              estimate_error=False)
+
+
+@functools.lru_cache(maxsize=None)
+def table():
+    return palpate.simulate_measurements(truth(), probes=10, radius=0.5)
+
+
+@functools.lru_cache(maxsize=None)
+def found():
+    return palpate.identify_field(held((3, 3, 6)), table(), poisson=POISSON, modes=20, length=0.6)
+
+
+class Field(Refusals):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_says_where_the_body_is_stiffer(self):
+        model, volume = found()
+        self.assertEqual(palpate.array(model, "IdentifiedNames"), ["mean Young's modulus"])
+        moduli = palpate.array(volume, "YoungsModulus")
+        middles = points_of(volume)[palpate_cells(volume)].mean(axis=1)
+        upper, lower = moduli[middles[:, 2] > 1.3], moduli[middles[:, 2] < 0.7]
+        self.assertLess(abs(np.log(np.median(upper) / np.median(lower) / 5)), np.log(1.6))
+        deviations = palpate.array(volume, "LogModulusDeviation")
+        self.assertTrue(((deviations > 0) & (deviations < 1)).all())
+        self.assertGreater(palpate.array(model, "DeterminedUnknowns")[0], 3)
+
+    def test_the_volume_is_what_the_model_is_of(self):
+        model, volume = found()
+        volume.GetPointData().AddArray(
+            as_vtk((points_of(volume)[:, 2] == 0).astype(np.uint8), "BoundaryType", 1, np.uint8))
+        again = palpate.precompute(volume, young=YOUNG, poisson=POISSON, method="fem")
+        first, second = (palpate.greens_functions(m) for m in (model, again))
+        np.testing.assert_allclose(first, second, atol=1e-9 * np.abs(first).max())
+
+    def test_from_files_by_the_program(self):
+        surface, out, field = (self.folder / name for name in ("body.vtp", "found.vtp", "field.vtu"))
+        palpate.write(palpate.precompute(held((2, 2, 4)), young=1, poisson=0.3, method="fem",
+                                         estimate_error=False), surface)
+        rig = self.folder / "rig.csv"
+        model = self.folder / "truth.vtp"
+        palpate.write(truth(), model)
+        self.assertEqual(run("measure", model, rig, "--radius", 0.5).returncode, 0)
+        common = ("identify", surface, out, "--measurements", rig, "--poisson", POISSON, "--modes", 8)
+        done = run(*common, "--method", "fem", "--field", field)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"mean Young's modulus, Pa +\d")
+        self.assertRegex(done.stdout, r"unknowns that are determined +\d")
+        volume = palpate.read_volume(field)
+        self.assertEqual(palpate.array(volume, "YoungsModulus").size, volume.GetNumberOfCells())
+        out.unlink()
+        field.unlink()
+        for extra, sentence in (((), "--modes requires --field"), (("--field", field), "add --method fem"),
+                                (("--method", "fem", "--field", self.folder / "field.txt"), ".vtu")):
+            done = run(*common, *extra)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(sentence, (done.stdout + done.stderr).lower())
+            self.assertFalse(out.exists() or field.exists())
+
+    def test_what_cannot_be_is_refused(self):
+        def refused(words, **settings):
+            self.refused(words, palpate.identify_field, held((2, 2, 4)), table(),
+                         **{"poisson": POISSON, **settings})
+
+        refused("at least one mode", modes=0)
+        refused("length must be positive", length=0)
+        refused("deviation of ln E", deviation=0)
+        refused("without volume", volume="body")
+
+    def test_aborts_without_a_result(self):
+        with self.assertRaises(palpate.Aborted):
+            palpate.identify_field(held((2, 2, 4)), table(), poisson=POISSON,
+                                   progress=lambda fraction, stage: stage != "fit")
+
+
+if __name__ == "__main__":
+    unittest.main()
