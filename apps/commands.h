@@ -15,6 +15,7 @@ void addInfo(CLI::App& program);
 void addRepair(CLI::App& program);
 void addRefine(CLI::App& program);
 void addRemesh(CLI::App& program);
+void addOriginal(CLI::App& program);
 void addPrecompute(CLI::App& program);
 void addImport(CLI::App& program);
 void addFoundation(CLI::App& program);

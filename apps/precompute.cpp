@@ -8,6 +8,7 @@
 #include <vtkFiniteElementGreensFunctions.h>
 #include <vtkHalfSpaceGreensFunctions.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIsotropicRemeshing.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
@@ -23,6 +24,7 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "commands.h"
 #include "subdivision_option.h"
@@ -42,7 +44,7 @@ struct Options {
   int levels = 4, vertices = 3000;
   std::string subdivision = "flat";
   std::string element = "quadratic";
-  double cellSize = 0;
+  double cellSize = 0, edgeLength = 0;
   std::vector<double> probes;  // three each
   double thickness = 0;        // 0 for that of the surface's array
   bool hinged = false;
@@ -138,6 +140,13 @@ void addOptions(CLI::App& command, Options& o) {
                    "Also responses to tractions on single patches of sharp edges");
   command.add_flag("--raw", o.raw, "Do not symmetrise the compliance");
   command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+  command
+      .add_option("--edge-length", o.edgeLength,
+                  "Remesh the surface to edges of about this length first, m: the model is of the "
+                  "coarser mesh, and shows on the original by `palpate original`")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--tolerance")
+      ->excludes("--columns");
   const char* const finite = "Finite elements";
   command.add_option("--element", o.element, "quadratic, or linear")
       ->check(CLI::IsMember({"quadratic", "linear"}))
@@ -185,6 +194,7 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--no-estimate", "bem fem"},
                                    {"--collocation", "bem"},
                                    {"--domain", "bem fem"},
+                                   {"--edge-length", "bem fem"},
                                    {"--support-columns", "bem fem shell"},
                                    {"--smooth-angle", "bem fem"},
                                    {"--patch-columns", "bem fem"},
@@ -289,8 +299,11 @@ void setInput(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
   if (isVolumeFile(o.input)) {
     if (o.method != "fem")
       throw std::invalid_argument(o.input + " is a volume mesh: add --method fem");
-    if (o.cellSize > 0)
-      throw std::invalid_argument("--cell-size makes no sense with a volume mesh: leave it out");
+    for (const auto& [name, value] :
+         {std::pair("--cell-size", o.cellSize), std::pair("--edge-length", o.edgeLength)})
+      if (value > 0)
+        throw std::invalid_argument(std::string(name) +
+                                    " makes no sense with a volume mesh: leave it out");
     const auto volume = readVolume(o.input);
     vtkNew<vtkSolidBoundary> boundary;
     boundary->SetInputData(volume);
@@ -299,7 +312,15 @@ void setInput(vtkGreensFunctionsAlgorithm* filter, const Options& o) {
   } else {
     conditions->SetInputData(readSurface(o.input));
   }
-  const auto posed = run(conditions);
+  auto posed = run(conditions);
+  if (o.edgeLength > 0) {
+    vtkNew<vtkIsotropicRemeshing> remeshing;
+    remeshing->SetInputData(posed);
+    remeshing->SetEdgeLength(o.edgeLength);
+    remeshing->SetSmoothAngle(o.smoothAngle);
+    remeshing->KeepOriginalOn();
+    posed = run(remeshing);
+  }
   filter->SetInputData(posed);
   std::vector<vtkIdType> columns = o.columns;
   if (o.supportColumns) {
@@ -313,6 +334,13 @@ void printModel(vtkPolyData* model) {
   for (const std::string& step : fieldStrings(model, "ToleranceSteps")) printRow("tried", step);
   vtkDataArray* nodes = model->GetFieldData()->GetArray("GreensFunctionNodes");
   printRow("vertices", std::to_string(model->GetNumberOfPoints()));
+  if (vtkDataArray* original = model->GetFieldData()->GetArray("OriginalPoints")) {
+    printRow("vertices of the original", std::to_string(original->GetNumberOfTuples()));
+    printRow("their largest distance from it, m",
+             number(fieldNumber(model, "OriginalDistance", 0)));
+    printRow("volume over the original's, less 1",
+             percent(fieldNumber(model, "OriginalVolumeChange", 0)));
+  }
   printRow("Green's functions", std::to_string(nodes->GetNumberOfTuples()));
   vtkDataArray* seconds = model->GetFieldData()->GetArray("StageSeconds");
   const std::vector<std::string> stages = fieldStrings(model, "StageNames");

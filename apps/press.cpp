@@ -7,6 +7,7 @@
 #include <vtkFieldData.h>
 #include <vtkInteriorProbe.h>
 #include <vtkNew.h>
+#include <vtkOriginalSurface.h>
 #include <vtkPointContact.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -30,7 +31,7 @@ struct Options {
   std::string input, output;
   std::vector<double> point, displacement, force, torque;
   std::vector<double> probes;  // three each
-  bool stress = false;
+  bool stress = false, original = false;
   MaskOptions mask;
   PictureOptions picture;
 };
@@ -139,6 +140,9 @@ void addPress(CLI::App& program) {
       ->add_option("--probe", options->probes,
                    "Also displacement and stress at these places inside the body")
       ->type_name("X Y Z ...");
+  command->add_flag("--original", options->original,
+                    "Write and draw the surface that the model's was remeshed from (precompute "
+                    "--edge-length), not the model");
   options->picture.addTo(*command, "the surface before and after");
   command->footer(
       "Give the mask the radius of what touches: a single vertex is softer the finer the mesh.\n"
@@ -167,8 +171,14 @@ void addPress(CLI::App& program) {
       pressed = run(stress);
     }
     const auto probed = probe(pressed, options->probes);
-    if (!options->output.empty()) writeSurface(pressed, options->output);
-    if (!options->picture.path.empty()) drawContact(pressed, options->picture);
+    auto shown = pressed;
+    if (options->original) {
+      vtkNew<vtkOriginalSurface> original;
+      original->SetInputData(pressed);
+      shown = run(original);
+    }
+    if (!options->output.empty()) writeSurface(shown, options->output);
+    if (!options->picture.path.empty()) drawContact(shown, options->picture);
     printContact(pressed);
     if (options->stress) printStress(pressed);
     printProbes(probed);

@@ -19,6 +19,7 @@ void addRemesh(CLI::App& program) {
     std::string input, output;
     double edgeLength = 0, smoothAngle = 30;
     int iterations = 3;
+    bool keepOriginal = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -40,6 +41,8 @@ void addRemesh(CLI::App& program) {
           "Edges sharper than this are kept, degrees, unless the surface has a SmoothPatch")
       ->check(CLI::Range(0., 180.))
       ->capture_default_str();
+  command->add_flag("--keep-original", options->keepOriginal,
+                    "Keep the input's mesh, and how it lies on the other, for `palpate original`");
   command->footer(
       "The rims of the support and of smooth patches keep their place.\n"
       "  palpate remesh scan.vtp even.vtp --edge-length 0.004");
@@ -49,6 +52,7 @@ void addRemesh(CLI::App& program) {
     filter->SetEdgeLength(options->edgeLength);
     filter->SetNumberOfIterations(options->iterations);
     filter->SetSmoothAngle(options->smoothAngle);
+    filter->SetKeepOriginal(options->keepOriginal);
     const auto surface = run(filter);
     writeSurface(surface, options->output);
     printRow("vertices", std::to_string(surface->GetNumberOfPoints()));

@@ -30,7 +30,7 @@ from .identification import (
 from .imports import import_compliance, import_stiffness
 from .loads import foundation, gravity
 from .precomputation import precompute
-from .surfaces import refine, remesh, repair
+from .surfaces import on_original, refine, remesh, repair
 from .version import __version__
 
 __all__ = [
@@ -49,6 +49,7 @@ __all__ = [
     "import_compliance",
     "import_stiffness",
     "measurement_table",
+    "on_original",
     "precompute",
     "press",
     "probe",

@@ -35,6 +35,7 @@ from .PalpateElastostatics import (
     vtkSolidBoundary,
     vtkToleranceGreensFunctions,
 )
+from .surfaces import remesh
 
 FIXED = "PrecomputeFixed"  # carries an argument to a filter
 THICKNESS = "Thickness"
@@ -48,7 +49,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
                estimate_error=True, max_levels=None, max_vertices=None, subdivision=None,
                volume=None, element="quadratic", cell_size=0.0, probes=None, thickness=None,
-               clamped=True):
+               clamped=True, edge_length=None):
     """Compute the Green's functions of an elastic body from its surface.
 
     Parameters
@@ -137,12 +138,16 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     clamped : bool
         Hold the rotations of a shell's fixed vertices, too; else they turn as on hinges. The point array
         `HeldComponents` may hold single components (see `vtkShellGreensFunctions`).
+    edge_length : float, optional
+        Of boundary and finite elements: remesh the surface to edges of about this length first, m. The
+        model is of the coarser mesh; `on_original` shows what it does on the surface given. `columns`,
+        `tolerance` and `volume` do not go with it.
 
     Returns
     -------
     vtkPolyData
-        The surface, refined if a `tolerance` called for it, or the boundary of its tetrahedra, with its Green's functions, provenance
-        and diagnostics as arrays.
+        The surface, refined if a `tolerance` called for it or remeshed to an `edge_length`, or the
+        boundary of its tetrahedra, with its Green's functions, provenance and diagnostics as arrays.
 
     Raises
     ------
@@ -179,7 +184,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         integration_tolerance=integration_tolerance, support_patch=support_patch,
         estimate_error=estimate_error, max_levels=max_levels, max_vertices=max_vertices,
         subdivision=subdivision, volume=volume, element=element, cell_size=cell_size, probes=probes,
-        thickness=thickness, clamped=clamped)
+        thickness=thickness, clamped=clamped, edge_length=edge_length)
     refuse_foreign(method, settings)
     if method == "bem":
         greens = boundary_elements(columns, **settings)
@@ -191,6 +196,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     else:
         greens = vtkHalfSpaceGreensFunctions()
     problem = posed(surface, young, poisson, fixed)
+    if edge_length is not None:
+        if not (columns is None and tolerance is None and volume is None):
+            raise Error("edge_length makes another mesh of the surface, to which columns, tolerance and "
+                        "volume do not belong: leave them out, or remesh first")
+        problem = remesh(problem, edge_length, smooth_angle=smooth_angle, keep_original=True)
     if thickness is not None:
         set_thickness(greens, problem, thickness)
     greens.SetInputData(problem)
@@ -245,7 +255,7 @@ def boundary_of(grid):
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
     "estimate_error": ("bem", "fem"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
-    "probes": ("fem",),
+    "probes": ("fem",), "edge_length": ("bem", "fem"),
     "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem"),
 }
 

@@ -5,6 +5,7 @@
 from .arguments import (
     SUBDIVISIONS,
     choice,
+    flag,
     number,
     positive,
     progress_callback,
@@ -12,12 +13,18 @@ from .arguments import (
     whole_number,
 )
 from .errors import Error, run
-from .PalpateElastostatics import vtkElasticMeshRepair, vtkIsotropicRemeshing, vtkSurfaceRefinement
+from .PalpateElastostatics import (
+    vtkElasticMeshRepair,
+    vtkIsotropicRemeshing,
+    vtkOriginalSurface,
+    vtkSurfaceRefinement,
+)
 
-__all__ = ["refine", "remesh", "repair"]
+__all__ = ["on_original", "refine", "remesh", "repair"]
 
 
-def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progress=None):
+def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, keep_original=False,
+           progress=None):
     """Another mesh of a closed surface, with edges of about one length.
 
     Parameters
@@ -30,6 +37,8 @@ def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progre
         How often the mesh is worked over, 1 to 100.
     smooth_angle : float
         Edges sharper than this, degrees, are kept where there is no cell array `SmoothPatch`.
+    keep_original : bool
+        Keep the surface's own points and triangles with the result, for `on_original`.
     progress : callable or bool, optional
         As in `precompute`.
 
@@ -60,7 +69,45 @@ def remesh(surface, edge_length=None, iterations=3, *, smooth_angle=30.0, progre
         raise Error("iterations must be 1 to 100, not 0")
     algorithm.SetNumberOfIterations(times)
     algorithm.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
+    algorithm.SetKeepOriginal(flag(keep_original, "keep_original"))
     return run(algorithm, progress_callback(progress))
+
+
+def on_original(data):
+    """Results of a remeshed surface on the surface that it was remeshed from.
+
+    Parameters
+    ----------
+    data : vtkPolyData
+        What came of `precompute` with an `edge_length`, or of `remesh` with `keep_original`, through
+        `press`, `stiffness` and so on, with its points and triangles as they were.
+
+    Returns
+    -------
+    vtkPolyData
+        The original's n points and its triangles, with `data`'s point arrays of real numbers interpolated,
+        its cell arrays from the nearest triangles, and its field arrays but for the Green's functions.
+        The map itself is in `data`'s field arrays `OriginalPointTriangle` (n) and `OriginalPointWeights`
+        (n by 3).
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong, such as for a surface that has changed.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> kidney = palpate.refine(palpate.read(palpate.example("kidney")), 3)
+    >>> model = palpate.precompute(kidney, 8e3, 0.45, edge_length=0.008)
+    >>> pressed = palpate.press(model, (0, 0, 0.03), force=(0, 0, -0.1), radius=0.015)
+    >>> shown = palpate.on_original(pressed)
+    >>> shown.GetNumberOfPoints() == kidney.GetNumberOfPoints() > 2 * model.GetNumberOfPoints()
+    True
+    """
+    algorithm = vtkOriginalSurface()
+    algorithm.SetInputData(surface_of(data))
+    return run(algorithm)
 
 
 def refine(surface, levels=1, subdivision="loop"):

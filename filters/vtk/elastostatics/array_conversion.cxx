@@ -271,5 +271,9 @@ void removeMeshResults(vtkPolyData* surface)
   removeGreensFunctions(surface);
   removeResponses(surface);
   surface->GetPointData()->RemoveArray(arrays::VertexArea);
+  for (const char* name : arrays::OriginalSurface)
+  {
+    fieldsOf(surface)->RemoveArray(name);
+  }
 }
 } // namespace palpate::convert

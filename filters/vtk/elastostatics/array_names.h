@@ -198,6 +198,16 @@ constexpr const char* MaterialRegion = "MaterialRegion"; // int from 0
 // Cell data of the volume that vtkStiffnessFieldIdentification gives, besides YoungsModulus and PoissonRatio.
 constexpr const char* LogModulusDeviation = "LogModulusDeviation"; // standard, of ln E
 
+// Field data: the surface that this one was remeshed from (vtkIsotropicRemeshing, vtkOriginalSurface).
+constexpr const char* OriginalPoints = "OriginalPoints";       // 3, m
+constexpr const char* OriginalTriangles = "OriginalTriangles"; // 3, id: of these points
+/// Where each of these points is on this surface: the triangle, and the weights of its corners.
+constexpr const char* OriginalPointTriangle = "OriginalPointTriangle"; // id
+constexpr const char* OriginalPointWeights = "OriginalPointWeights";   // 3
+constexpr const char* OriginalDistance = "OriginalDistance"; // largest of a point from its place, m
+constexpr const char* OriginalVolumeChange = "OriginalVolumeChange"; // this one's over its, - 1
+constexpr const char* OriginalFingerprint = "OriginalFingerprint"; // uint64, of this surface
+
 // Constraints, the second input of vtkCapacitanceSolve (a tuple a constraint).
 constexpr const char* Node = "Node";           // id
 constexpr const char* Direction = "Direction"; // 3, optional: only this component
@@ -216,7 +226,11 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
-  RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, NextProbeVertex, NextProbeForce, NextProbeDeviations };
+  RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, NextProbeVertex, NextProbeForce,
+  NextProbeDeviations };
+/// Field data of the surface that one was remeshed from.
+constexpr const char* OriginalSurface[] = { OriginalPoints, OriginalTriangles, OriginalPointTriangle,
+  OriginalPointWeights, OriginalDistance, OriginalVolumeChange, OriginalFingerprint };
 /// Field data of one table of measurements.
 constexpr const char* MeasurementTable[] = { MeasurementProbe, MeasurementRow, MeasurementVertex,
   MeasurementPoint, MeasuredDisplacement, MeasurementDeviation, ProbeNames, ProbeVertex, ProbePoint,

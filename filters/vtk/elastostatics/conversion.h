@@ -70,7 +70,8 @@ void removeGreensFunctions(vtkDataObject* data);
 void removeContact(vtkPolyData* surface);
 /// Takes away what contacts left and all stiffnesses, which another model would not have.
 void removeResponses(vtkPolyData* surface);
-/// Takes away all of this and vertex areas, which another mesh would not have.
+/// Takes away all of this, vertex areas and how an original surface lies on this one, which another mesh
+/// would not have.
 void removeMeshResults(vtkPolyData* surface);
 } // namespace palpate::convert
 

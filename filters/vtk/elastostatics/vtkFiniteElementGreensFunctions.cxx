@@ -6,6 +6,7 @@
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "model_arrays.h"
+#include "original_arrays.h"
 #include "volume_arrays.h"
 
 #include "vtkCellData.h"
@@ -144,6 +145,11 @@ void vtkFiniteElementGreensFunctions::Compute(
     convert::removeMeshResults(output);
   }
   convert::removeResponses(output);
+  if (this->Filled && convert::hasOriginal(input))
+  {
+    convert::setOriginal(output,
+      ofFilled ? ofFilled->sharedMesh() : modelOf(this->Filled).sharedMesh(), convert::originalOf(input));
+  }
   convert::shareGreensFunctions(computed, output, given.material().youngsModulus());
   if (!this->Filled)
   {

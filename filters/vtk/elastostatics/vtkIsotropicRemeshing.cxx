@@ -9,6 +9,7 @@
 #include "mesh/smooth_patches.h"
 #include "mesh/surface_mesh.h"
 #include "model_arrays.h"
+#include "original_arrays.h"
 #include "smooth_patch_arrays.h"
 
 #include "vtkCellData.h"
@@ -18,7 +19,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <stdexcept>
+#include <memory>
 
 vtkStandardNewMacro(vtkIsotropicRemeshing);
 
@@ -30,7 +31,8 @@ void vtkIsotropicRemeshing::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EdgeLength: " << this->EdgeLength << "\n"
      << indent << "NumberOfIterations: " << this->NumberOfIterations << "\n"
-     << indent << "SmoothAngle: " << this->SmoothAngle << "\n";
+     << indent << "SmoothAngle: " << this->SmoothAngle << "\n"
+     << indent << "KeepOriginal: " << this->KeepOriginal << "\n";
 }
 
 void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
@@ -58,5 +60,11 @@ void vtkIsotropicRemeshing::Compute(vtkPolyData* input, vtkPolyData* output, vtk
   if (hasPatches)
   {
     convert::setSmoothPatches(output, remeshed.smoothPatches);
+  }
+  if (this->KeepOriginal)
+  {
+    convert::setOriginal(output,
+      std::make_shared<const palpate::SurfaceMesh>(remeshed.points, remeshed.triangles),
+      convert::hasOriginal(input) ? convert::originalOf(input) : mesh);
   }
 }

@@ -48,6 +48,17 @@ public:
   vtkGetMacro(SmoothAngle, double);
   ///@}
 
+  ///@{
+  /**
+   * Keep the input's points and triangles with the output, and where on it each of them is
+   * (`OriginalPoints` and the like), so that vtkOriginalSurface can show there what a model of the output
+   * does. An original that the input has already stays the original. Default off.
+   */
+  vtkSetMacro(KeepOriginal, bool);
+  vtkGetMacro(KeepOriginal, bool);
+  vtkBooleanMacro(KeepOriginal, bool);
+  ///@}
+
 protected:
   vtkIsotropicRemeshing() = default;
   ~vtkIsotropicRemeshing() override = default;
@@ -60,6 +71,7 @@ private:
   double EdgeLength = 0;
   int NumberOfIterations = 3;
   double SmoothAngle = 30;
+  bool KeepOriginal = false;
 };
 
 #endif
