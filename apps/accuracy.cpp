@@ -40,6 +40,17 @@ void addQuestion(CLI::App& command, AccuracyOptions& o) {
                   "A surface with support and material; a model counts as its surface")
       ->required();
   command
+      .add_option("--method", o.method,
+                  "What the Green's functions are computed by: bem, fem, shell or halfspace; "
+                  "imported ones have no discretisation to vary")
+      ->check(CLI::IsMember({"bem", "fem", "shell", "halfspace"}))
+      ->capture_default_str();
+  command
+      .add_option("--thickness", o.thickness,
+                  "Of --method shell, m; by default the surface's array Thickness")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--hinged", o.hinged, "Fixed vertices of a shell may turn");
+  command
       .add_option("--query", o.query,
                   "compliance under a mask at points, greens (displacement of the whole surface) "
                   "or force (on a ball that is pressed in)")
@@ -64,15 +75,17 @@ void addQuestion(CLI::App& command, AccuracyOptions& o) {
   command
       .add_option("--reference", o.reference,
                   "finest (Richardson extrapolation), kelvin (a point source's exact field, of "
-                  "--query greens), or a CSV file: x,y,z and nine compliances a line, cxx,cxy,...")
-      ->capture_default_str();
+                  "--query greens), boussinesq (closed form, of --method halfspace), or a CSV "
+                  "file: x,y,z and nine compliances a line, cxx,cxy,...")
+      ->default_str("finest, of a half-space's compliances boussinesq");
 }
 
 void addSweep(CLI::App& command, AccuracyOptions& o) {
   command.add_option("--levels", o.levels, "Levels of the surface, 1 as it is")
       ->check(CLI::Range(1, 9))
       ->capture_default_str();
-  addSubdivision(command, o.subdivision);
+  addSubdivision(command, o.subdivision)
+      ->default_str("loop of bodies, curved of shells, flat of half-spaces");
   command
       .add_option("--base-level", o.baseLevel,
                   "Level on which the other knobs are varied; by default the last but one")
@@ -83,9 +96,8 @@ void addSweep(CLI::App& command, AccuracyOptions& o) {
       ->check(CLI::Range(1, 9));
   command.add_option("--knobs", o.knobs,
                      "What is varied: level, tolerance, solver, collocation, combined, "
-                     "reciprocity, edges, support, storage, columns, method, rows, mask, "
-                     "contact; by "
-                     "default all that the query has");
+                     "reciprocity, edges, support, storage, columns, method, element, rows, "
+                     "mask, contact; by default all that query and method have");
   command.add_option("--repeats", o.repeats, "Runs of every setting, in turn")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
@@ -118,6 +130,7 @@ void printResult(const TrialResult& result) {
 }
 
 void printStudy(const AccuracyStudy& study) {
+  printRow("method", study.method);
   printRow("error of", study.error);
   printRow("against", study.reference);
   if (study.uncertainty > 0)
@@ -198,7 +211,9 @@ void addAccuracy(CLI::App& program) {
   command->footer(
       "Settings are run in turn, over and over, so that a machine that slows down biases none.\n"
       "  palpate accuracy data/kidney.vtp --levels 1 2 3 --report kidney_accuracy.html\n"
-      "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat");
+      "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat\n"
+      "  palpate accuracy bonnet.vtp --method shell --thickness 0.001\n"
+      "  palpate accuracy patch.vtp --method halfspace --reference boussinesq");
   command->callback([options] {
     requireSensibleFiles(*options);
     const AccuracyStudy study = studyAccuracy(options->study);

@@ -30,6 +30,7 @@ std::string meaningOf(const std::string& knob) {
        "double."},
       {"collocation", "The integral equation at the vertices alone, as in the paper."},
       {"method", "Finite elements in tetrahedra that fill the surface, quadratic or linear."},
+      {"element", "Linear tetrahedra in place of quadratic ones."},
       {"combined", "Vertex collocation and float arithmetic together."},
       {"reciprocity", "The compliance symmetrised as it is served, or raw."},
       {"edges",
@@ -76,8 +77,9 @@ std::string tableOf(const AccuracyStudy& study, const std::string& knob) {
 }
 
 std::string questionText(const AccuracyStudy& study) {
-  std::string text = "<p class=\"lead\">Error of the " + html::escaped(study.error) +
-                     ", against the " + html::escaped(study.reference) + ".</p>\n";
+  std::string text = "<p class=\"lead\">By " + html::escaped(study.method) + ": error of the " +
+                     html::escaped(study.error) + ", against the " +
+                     html::escaped(study.reference) + ".</p>\n";
   if (study.points.empty() && !(study.uncertainty > 0)) return text;
   text += "<ul>\n";
   if (study.uncertainty > 0)

@@ -92,7 +92,7 @@ Drawing drawingOf(const AccuracyStudy& study) {
 }
 
 std::string descriptionOf(const AccuracyStudy& study) {
-  return study.body + ": error against time, against " + study.reference;
+  return study.body + " by " + study.method + ": error against time, against " + study.reference;
 }
 
 }  // namespace

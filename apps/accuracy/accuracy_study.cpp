@@ -11,23 +11,22 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "accuracy/knobs.h"
 #include "accuracy/pareto_front.h"
+#include "accuracy/points.h"
 #include "accuracy/reference.h"
 #include "accuracy/sweep.h"
+#include "model/elasticity.h"
 #include "progress_bar.h"
-#include "subdivision_option.h"
+#include "sentence.h"
 #include "terminal.h"
 
 namespace palpate::app {
 namespace {
 
-constexpr int kSpreadPoints = 4;
-constexpr double kSupportWeight = 0.5;    ///< points keep twice as clear of it as of each other
 constexpr double kSourceDistance = 0.75;  ///< diagonals of the body from its middle
 
 vtkSmartPointer<vtkPolyData> surfaceOf(const AccuracyOptions& options) {
@@ -37,57 +36,9 @@ vtkSmartPointer<vtkPolyData> surfaceOf(const AccuracyOptions& options) {
   return run(conditions);
 }
 
-/// Free vertices of the first level far from the support and from each other, as points of the
-/// finest.
-std::vector<SurfacePoint> spreadPoints(const BodyLevels& body) {
-  const Eigen::Matrix3Xd& places = body.mesh(1).points();
-  std::vector<int> taken = body.conditions(1).fixedNodes();
-  const std::vector<int> free = body.conditions(1).freeNodes();
-  const SurfaceMesh& finest = body.mesh(body.count());
-  std::vector<SurfacePoint> points;
-  while (points.size() < kSpreadPoints && points.size() < free.size()) {
-    int farthest = free.front();
-    double most = -1;
-    for (int v : free) {
-      double away = std::numeric_limits<double>::infinity();
-      for (int w : taken)
-        away = std::min(away, (body.conditions(1).isFixed(w) ? kSupportWeight : 1) *
-                                  (places.col(v) - places.col(w)).norm());
-      if (away > most) {
-        most = away;
-        farthest = v;
-      }
-    }
-    taken.push_back(farthest);
-    const int triangle = *finest.trianglesOfVertex(farthest).begin();
-    SurfacePoint point{triangle, Eigen::Vector3d::Zero()};
-    for (int k = 0; k < 3; ++k) point.barycentric[k] = finest.triangles()(k, triangle) == farthest;
-    points.push_back(point);
-  }
-  return points;
-}
-
-/// The points of the finest level that are nearest to places.
-/// @param places  x y z of each.
-/// @throws std::invalid_argument for a place that is off the surface as it is and off its finest
-///         level, by more than a quarter of the former's edges.
-std::vector<SurfacePoint> pointsAt(const BodyLevels& body, const std::vector<double>& places) {
-  const SurfaceMesh &first = body.mesh(1), &finest = body.mesh(body.count());
-  const double most = 0.25 * first.meanEdgeLength();
-  std::vector<SurfacePoint> points;
-  for (std::size_t i = 0; i + 2 < places.size(); i += 3) {
-    const Eigen::Vector3d place(places[i], places[i + 1], places[i + 2]);
-    if (!place.allFinite()) throw std::invalid_argument("a point must be three finite numbers");
-    points.push_back(nearestSurfacePoint(finest, place));
-    const double away =
-        std::min((placeOf(finest, points.back()) - place).norm(),
-                 (placeOf(first, nearestSurfacePoint(first, place)) - place).norm());
-    if (away > most)
-      throw std::invalid_argument("the point " + vectorText(place.data()) + " is " + number(away) +
-                                  " off the surface, more than a quarter of its mean edge, " +
-                                  number(most) + ": are both in the same unit?");
-  }
-  return points;
+/// Whether a reference is a file of compliances.
+bool isFile(const std::string& reference) {
+  return reference != "finest" && reference != "kelvin" && reference != "boussinesq";
 }
 
 QueryKind kindOf(const std::string& query) {
@@ -97,20 +48,24 @@ QueryKind kindOf(const std::string& query) {
 }
 
 /// The knobs that are varied, checked.
-std::vector<std::string> chosenKnobs(const AccuracyOptions& options, bool hasSharpEdges) {
-  const bool isKelvin = options.reference == "kelvin";
-  const bool isFile = options.reference != "finest" && !isKelvin;
-  std::vector<std::string> known = knobsOf(kindOf(options.query), isKelvin);
-  if (isFile) known.erase(std::remove(known.begin(), known.end(), "mask"), known.end());
+std::vector<std::string> chosenKnobs(const AccuracyOptions& options, const BodyLevels& body,
+                                     bool hasSharpEdges) {
+  std::vector<std::string> known =
+      knobsOf(kindOf(options.query), methodNamed(options.method), options.reference == "kelvin");
+  const auto drop = [&](const char* knob) {
+    known.erase(std::remove(known.begin(), known.end(), knob), known.end());
+  };
+  if (isFile(options.reference)) drop("mask");
   std::string list;
   for (const std::string& knob : known) list += (list.empty() ? "" : ", ") + knob;
   for (const std::string& knob : options.knobs)
     if (std::find(known.begin(), known.end(), knob) == known.end())
       throw std::invalid_argument("there is no knob '" + knob + "' of the query " + options.query +
-                                  " against the reference " + options.reference +
-                                  ": choose some of " + list);
+                                  " and the method " + options.method + " against the reference " +
+                                  options.reference + ": choose some of " + list);
   if (!options.knobs.empty()) return options.knobs;
-  if (!hasSharpEdges) known.erase(std::remove(known.begin(), known.end(), "edges"), known.end());
+  if (!hasSharpEdges) drop("edges");
+  if (body.material().poissonRatio() >= Elasticity::kSplitFrom) drop("element");
   return known;
 }
 
@@ -119,7 +74,18 @@ void requireSensible(const AccuracyOptions& options) {
     throw std::invalid_argument(
         "a point source's field is known on the whole surface: the reference kelvin is one of "
         "`--query greens`");
-  const bool isFile = options.reference != "finest" && options.reference != "kelvin";
+  if (options.reference == "kelvin" && options.method != "bem")
+    throw std::invalid_argument("the reference kelvin is one of --method bem, not of " +
+                                options.method);
+  if (options.reference == "boussinesq" &&
+      (options.method != "halfspace" || options.query != "compliance"))
+    throw std::invalid_argument(
+        "the reference boussinesq is one of --method halfspace and --query compliance");
+  if (options.method != "shell" && (options.thickness > 0 || options.hinged))
+    throw std::invalid_argument("--thickness and --hinged make no sense with --method " +
+                                options.method + ": leave them out");
+  if (options.method == "halfspace" && options.support.fixes())
+    throw std::invalid_argument("a half-space needs no support: leave out what fixes it");
   const int last = *std::max_element(options.levels.begin(), options.levels.end());
   if (options.referenceLevel > 0 && options.reference != "finest")
     throw std::invalid_argument("--reference-level is one of the reference finest, not of " +
@@ -127,7 +93,7 @@ void requireSensible(const AccuracyOptions& options) {
   if (options.referenceLevel > 0 && options.referenceLevel < last)
     throw std::invalid_argument("--reference-level " + std::to_string(options.referenceLevel) +
                                 " is coarser than the last of --levels, " + std::to_string(last));
-  if (!isFile) return;
+  if (!isFile(options.reference)) return;
   if (options.query != "compliance")
     throw std::invalid_argument("the file " + options.reference +
                                 " gives compliances: it is a reference of `--query compliance`");
@@ -147,13 +113,14 @@ class AccuracyRun {
         levels_(options.levels),
         body_(surfaceOf(options),
               std::max(*std::max_element(levels_.begin(), levels_.end()), options.referenceLevel),
-              subdivisionNamed(options.subdivision)),
+              options),
         progress_([](double fraction, const char* stage) {
           drawProgress(fraction, stage);
           return !isInterrupted();
         }) {
     std::sort(levels_.begin(), levels_.end());
     levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    radius_ = options_.radius > 0 ? options_.radius : body_.mesh(1).meanEdgeLength();
     readPoints();
     setQuery();
     setBase();
@@ -162,8 +129,9 @@ class AccuracyRun {
   AccuracyStudy run() {
     bool hasSharpEdges = false;
     for (int level : levels_) hasSharpEdges = hasSharpEdges || body_.hasSharpEdges(level);
-    const std::vector<Trial> trials =
-        trialsOf(chosenKnobs(options_, hasSharpEdges), base_, levels_, body_);
+    std::vector<Trial> trials =
+        trialsOf(chosenKnobs(options_, body_, hasSharpEdges), base_, levels_, body_);
+    if (options_.reference == "boussinesq") keepWholeMasks(trials);
     const Reference reference = this->reference(trials);
     std::vector<Setting> settings;
     for (const Trial& trial : trials) {
@@ -186,17 +154,16 @@ class AccuracyRun {
 
   void readPoints() {
     std::vector<double> places = options_.points;
-    if (options_.reference != "finest" && options_.reference != "kelvin") {
+    if (isFile(options_.reference)) {
       table_ = readCompliances(options_.reference);
       places = table_.points;
     }
-    for (const SurfacePoint& point : places.empty() ? spreadPoints(body_) : pointsAt(body_, places))
+    for (const SurfacePoint& point :
+         places.empty() ? spreadPoints(body_, radius_) : pointsAt(body_, places))
       points_.push_back(body_.ancestors(point));
   }
 
   void setQuery() {
-    const double edge = body_.mesh(1).meanEdgeLength();
-    radius_ = options_.radius > 0 ? options_.radius : edge;
     ballRadius_ = options_.ballRadius > 0 ? options_.ballRadius : radius_;
     depth_ = options_.depth > 0 ? options_.depth : 0.1 * ballRadius_;
     const SurfaceMesh& finest = body_.mesh(body_.count());
@@ -224,19 +191,34 @@ class AccuracyRun {
       throw std::invalid_argument("--base-level is one of --levels, which have no level " +
                                   std::to_string(base_.level));
     base_.radius = radius_;
+    base_.method = methodNamed(options_.method);
     base_.reciprocal = !isKelvin();
   }
 
   bool isKelvin() const { return options_.reference == "kelvin"; }
 
+  /// The closed form is that of masks that no rim cuts off.
+  void keepWholeMasks(std::vector<Trial>& trials) const {
+    const double reach = widestWholeMask(body_, points_);
+    if (radius_ > reach)
+      refuse("a point is ", reach, " from the rim, which cuts off its mask of ", radius_,
+             ": give a smaller --radius, or --reference finest");
+    trials.erase(std::remove_if(trials.begin(), trials.end(),
+                                [&](const Trial& trial) { return trial.setting.radius > reach; }),
+                 trials.end());
+  }
+
   Reference reference(const std::vector<Trial>& trials) const {
     if (isKelvin())
       return Reference::exact("exact field of a point force at " + vectorText(source_.data()) +
                               " outside the body (Kelvin)");
-    if (options_.reference != "finest")
+    if (isFile(options_.reference))
       return Reference::given("compliances of " + options_.reference, table_.values);
     std::set<double> radii{base_.radius};
     for (const Trial& trial : trials) radii.insert(trial.setting.radius);
+    if (options_.reference == "boussinesq")
+      return Reference::boussinesq(body_.material(), body_.mesh(1).triangleNormals().col(0),
+                                   {radii.begin(), radii.end()}, static_cast<int>(points_.size()));
     return Reference::finest(body_, *query_, base_, {radii.begin(), radii.end()}, options_.threads,
                              progress_.part(0, kReferenceShare));
   }
@@ -244,6 +226,7 @@ class AccuracyRun {
   AccuracyStudy described(const Reference& reference) const {
     AccuracyStudy study;
     study.body = std::filesystem::path(options_.input).stem().string();
+    study.method = nameOf(base_.method);
     study.reference = reference.name();
     study.error = query_->description();
     study.query = kindOf(options_.query);
@@ -316,7 +299,12 @@ class AccuracyRun {
 
 }  // namespace
 
-AccuracyStudy studyAccuracy(const AccuracyOptions& options) {
+AccuracyStudy studyAccuracy(const AccuracyOptions& given) {
+  AccuracyOptions options = given;
+  if (options.reference.empty()) {
+    const bool isKnown = options.method == "halfspace" && options.query == "compliance";
+    options.reference = isKnown ? "boussinesq" : "finest";
+  }
   requireSensible(options);
   try {
     return AccuracyRun(options).run();

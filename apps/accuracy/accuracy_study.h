@@ -27,7 +27,7 @@ struct TrialResult {
 
 /// Error against time, of every knob of one query on one body.
 struct AccuracyStudy {
-  std::string body, reference, error;  ///< in words
+  std::string body, method, reference, error;  ///< in words
   QueryKind query = QueryKind::Compliance;
   std::vector<std::array<double, 3>> points;  ///< on the finest level, m; none of a point source
   double radius = 0, ballRadius = 0, depth = 0;

@@ -5,33 +5,78 @@
 
 #include <conversion.h>
 #include <model_arrays.h>
+#include <shell_arrays.h>
 #include <smooth_patch_arrays.h>
 
 #include "mesh/smooth_patches.h"
 #include "model/support.h"
+#include "sentence.h"
+#include "subdivision_option.h"
 
 namespace palpate::app {
 namespace {
 
 constexpr double kSmoothAngle = 30;  // degrees, as `precompute` takes it
 
+Domain domainOf(Method method) {
+  return method == Method::ThinShell   ? Domain::Shell
+         : method == Method::HalfSpace ? Domain::HalfSpace
+                                       : Domain::Interior;
+}
+
+Subdivision subdivisionOf(const AccuracyOptions& options, Domain domain) {
+  if (options.subdivision.empty())
+    return domain == Domain::Interior ? Subdivision::Loop
+           : domain == Domain::Shell  ? Subdivision::Curved
+                                      : Subdivision::Flat;
+  const Subdivision chosen = subdivisionNamed(options.subdivision);
+  if (domain != Domain::Interior && chosen == Subdivision::Loop)
+    refuse("--subdivision loop is one of closed surfaces: choose flat or curved with --method ",
+           options.method);
+  return chosen;
+}
+
 }  // namespace
 
-BodyLevels::BodyLevels(vtkPolyData* surface, int levels, Subdivision subdivision) {
-  const ElasticModel first = convert::modelOf(surface, kSmoothAngle, Domain::Interior);
-  const bool isInherited =
-      subdivision == Subdivision::Curved || convert::hasGivenPatches(surface, first.mesh());
+BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& options)
+    : domain_(domainOf(methodNamed(options.method))) {
+  const Subdivision subdivision = subdivisionOf(options, domain_);
+  const ElasticModel first = convert::modelOf(surface, kSmoothAngle, domain_);
+  const bool isInherited = !isSolid() || subdivision == Subdivision::Curved ||
+                           convert::hasGivenPatches(surface, first.mesh());
   material_ = first.material();
   levels_.push_back({first.sharedMesh(), first.conditions(), first.smoothPatches(), {}});
+  if (domain_ == Domain::Shell) {
+    levels_[0].thickness = convert::shellThicknessOf(surface, first.mesh(), options.thickness);
+    levels_[0].held = convert::heldComponentsOf(surface, first.conditions(), !options.hinged);
+  }
   while (count() < levels) {
     const Level& coarse = levels_.back();
     SubdivisionLevel made = subdivide(*coarse.mesh, coarse.patches, subdivision);
-    auto mesh = std::make_shared<SurfaceMesh>(std::move(made.points), made.triangles);
+    auto mesh =
+        std::make_shared<SurfaceMesh>(std::move(made.points), made.triangles, rimsOf(domain_));
     const Eigen::VectorXi patches = isInherited ? refineSmoothPatches(made, coarse.patches)
                                                 : findSmoothPatches(*mesh, kSmoothAngle);
     const BoundaryConditions conditions(refineBoundaryTypes(made, coarse.conditions.types()));
-    levels_.push_back({mesh, conditions, patches, std::move(made)});
+    Level fine{mesh, conditions, patches, std::move(made)};
+    if (domain_ == Domain::Shell) refineShell(coarse, fine);
+    levels_.push_back(std::move(fine));
   }
+}
+
+/// Thickness is linear between the corners, and a new vertex is held as both ends of its edge are.
+void BodyLevels::refineShell(const Level& coarse, Level& fine) const {
+  fine.thickness.resize(3, fine.mesh->triangleCount());
+  for (int f = 0; f < fine.mesh->triangleCount(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const SurfacePoint parent =
+          parentPoint(fine.made, coarse.mesh->triangles(), {f, Eigen::Vector3d::Unit(k)});
+      fine.thickness(k, f) = coarse.thickness.col(parent.triangle).dot(parent.barycentric);
+    }
+  fine.held.resize(6, fine.mesh->vertexCount());
+  for (int v = 0; v < fine.mesh->vertexCount(); ++v)
+    fine.held.col(v) =
+        coarse.held.col(fine.made.parents(0, v)) && coarse.held.col(fine.made.parents(1, v));
 }
 
 bool BodyLevels::hasSharpEdges(int level) const {
@@ -44,6 +89,7 @@ bool BodyLevels::hasSharpEdges(int level) const {
 }
 
 Eigen::VectorXi BodyLevels::patches(const Level& level, TractionJumps jumps) const {
+  if (!isSolid()) return level.patches;
   if (jumps == TractionJumps::Nowhere) return Eigen::VectorXi::Zero(level.patches.size());
   if (jumps == TractionJumps::SharpEdges) return level.patches;
   return splitAtSupport(*level.mesh, level.conditions, level.patches);
@@ -51,7 +97,11 @@ Eigen::VectorXi BodyLevels::patches(const Level& level, TractionJumps jumps) con
 
 ElasticModel BodyLevels::model(int level, TractionJumps jumps) const {
   const Level& found = at(level);
-  return ElasticModel(found.mesh, material_, found.conditions, patches(found, jumps));
+  return ElasticModel(found.mesh, material_, found.conditions, patches(found, jumps), domain_);
+}
+
+ThinShell BodyLevels::shell(int level, const ElasticModel& model) const {
+  return ThinShell(model, at(level).thickness, at(level).held);
 }
 
 std::vector<SurfacePoint> BodyLevels::ancestors(const SurfacePoint& finest) const {

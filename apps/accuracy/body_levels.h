@@ -10,6 +10,7 @@
 #include "accuracy/settings.h"
 #include "mesh/subdivision.h"
 #include "model/elastic_model.h"
+#include "shell/thin_shell.h"
 
 class vtkPolyData;
 
@@ -18,9 +19,11 @@ namespace palpate::app {
 /// A body on a surface and its refinements. Level 1 is the surface as it is.
 class BodyLevels {
  public:
-  /// @param surface      with boundary types, material and, if given, smooth patches.
+  /// @param surface  with boundary types, material and, if given, smooth patches, of a shell its
+  ///                 thickness and held components.
+  /// @param levels   how many.
   /// @throws std::invalid_argument with a sentence for a surface that cannot be used.
-  BodyLevels(vtkPolyData* surface, int levels, Subdivision subdivision);
+  BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& options);
 
   int count() const { return static_cast<int>(levels_.size()); }
   const SurfaceMesh& mesh(int level) const { return *at(level).mesh; }
@@ -30,6 +33,10 @@ class BodyLevels {
   /// Whether traction may jump somewhere.
   bool hasSharpEdges(int level) const;
   ElasticModel model(int level, TractionJumps jumps) const;
+  /// What makes a level's model one of a shell.
+  ThinShell shell(int level, const ElasticModel& model) const;
+  /// Whether it is one of solids, and not a shell or a half-space.
+  bool isSolid() const { return domain_ == Domain::Interior; }
 
   /// The points of all levels that a point of the finest descends from, the first of level 1.
   std::vector<SurfacePoint> ancestors(const SurfacePoint& finest) const;
@@ -39,11 +46,15 @@ class BodyLevels {
     std::shared_ptr<const SurfaceMesh> mesh;
     BoundaryConditions conditions;
     Eigen::VectorXi patches;
-    SubdivisionLevel made;  ///< of the level before, without points
+    SubdivisionLevel made;            ///< of the level before, without points
+    Eigen::Matrix3Xd thickness = {};  ///< of shells, and what is held of them
+    HeldComponents held = {};
   };
+  void refineShell(const Level& coarse, Level& fine) const;
   Eigen::VectorXi patches(const Level& level, TractionJumps jumps) const;
   const Level& at(int level) const { return levels_.at(level - 1); }
 
+  Domain domain_;
   Material material_{1, 0};
   std::vector<Level> levels_;
 };

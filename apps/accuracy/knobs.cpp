@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <stdexcept>
 
@@ -28,6 +29,7 @@ class Knobs {
     static const std::map<std::string, void (Knobs::*)()> ways{
         {"level", &Knobs::addLevels},
         {"method", &Knobs::addMethods},
+        {"element", &Knobs::addElements},
         {"tolerance", &Knobs::addTolerances},
         {"solver", &Knobs::addSolvers},
         {"storage", &Knobs::addStorages},
@@ -72,11 +74,22 @@ class Knobs {
     }
   }
 
+  void addElements() {
+    if (!canBeLinear())
+      throw std::invalid_argument(
+          "linear tetrahedra lock from a Poisson's ratio of 0.45 on: there is nothing to vary by "
+          "the knob element");
+    addOnLevels(
+        "linear", [](Setting& setting) { setting.method = Method::LinearTetrahedra; }, false);
+  }
+
+  bool canBeLinear() const { return body_.material().poissonRatio() < Elasticity::kSplitFrom; }
+
   void addMethods() {
     addOnLevels(
         "quadratic tetrahedra",
         [](Setting& setting) { setting.method = Method::QuadraticTetrahedra; }, false);
-    if (body_.material().poissonRatio() < Elasticity::kSplitFrom)  // they lock beyond
+    if (canBeLinear())  // they lock beyond
       addOnLevels(
           "linear tetrahedra", [](Setting& setting) { setting.method = Method::LinearTetrahedra; },
           false);
@@ -194,16 +207,20 @@ class Knobs {
 
 }  // namespace
 
-std::vector<std::string> knobsOf(QueryKind query, bool isPointSource) {
-  std::vector<std::string> knobs{"level",       "tolerance", "solver",  "collocation", "combined",
-                                 "reciprocity", "edges",     "support", "storage"};
-  if (!isPointSource) knobs.push_back("columns");
-  if (!isPointSource && canUseTetrahedra()) knobs.push_back("method");
-  if (query == QueryKind::Compliance) {
-    knobs.push_back("rows");
-    knobs.push_back("mask");
-  }
-  if (query == QueryKind::Force) knobs.push_back("contact");
+std::vector<std::string> knobsOf(QueryKind query, Method method, bool isPointSource) {
+  std::vector<std::string> knobs{"level"};
+  const auto add = [&](std::initializer_list<const char*> more) {
+    knobs.insert(knobs.end(), more.begin(), more.end());
+  };
+  if (method == Method::BoundaryElements)
+    add({"tolerance", "solver", "collocation", "combined", "reciprocity", "edges", "support"});
+  if (method == Method::QuadraticTetrahedra) add({"element", "reciprocity"});
+  if (method == Method::HalfSpace) add({"reciprocity"});
+  if (method != Method::HalfSpace) add({"storage"});
+  if (!isPointSource && method != Method::HalfSpace) add({"columns"});
+  if (method == Method::BoundaryElements && !isPointSource && canUseTetrahedra()) add({"method"});
+  if (query == QueryKind::Compliance) add({"rows", "mask"});
+  if (query == QueryKind::Force) add({"contact"});
   return knobs;
 }
 

@@ -8,8 +8,8 @@
 
 namespace palpate::app {
 
-/// The knobs of a query, in the order of the tables.
-std::vector<std::string> knobsOf(QueryKind query, bool isPointSource);
+/// The knobs of a query and a method, in the order of the tables.
+std::vector<std::string> knobsOf(QueryKind query, Method method, bool isPointSource);
 
 /// All settings that are tried: each knob's values with the others at the base's, those that go
 /// with the level on every level. The base itself is a trial of the level.

@@ -10,8 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "accuracy/compute_greens.h"
 #include "accuracy/richardson.h"
-#include "accuracy/sweep.h"
+#include "sentence.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -43,7 +44,8 @@ class AllRadii final : public Query {
   std::vector<double> radii_;
 };
 
-std::string nameOf(const RichardsonExtrapolation& found, const BodyLevels& body, int first) {
+std::string nameOf(const RichardsonExtrapolation& found, const BodyLevels& body, Method method,
+                   int first) {
   std::string levels;
   for (int level = first; level <= body.count(); ++level)
     levels += (level == first          ? ""
@@ -55,8 +57,24 @@ std::string nameOf(const RichardsonExtrapolation& found, const BodyLevels& body,
          (found.isObserved           ? "observed order " + number(found.order, 3)
           : body.count() - first > 1 ? "order 1, as their differences show none"
                                      : "stated order " + number(found.order, 3)) +
-         ", double precision, averaged collocation, the support as patches of its own, "
-         "integration tolerance 1e-06";
+         (method == Method::BoundaryElements
+              ? ", double precision, averaged collocation, the support as patches of its own, "
+                "integration tolerance 1e-06"
+              : ", " + nameOf(method));
+}
+
+/// @throws std::runtime_error that names the level, where the method cannot take it.
+std::shared_ptr<const GreensFunctions> ofLevel(const BodyLevels& body, const Query& query,
+                                               const Setting& setting, int threads,
+                                               const ProgressCallback& progress) {
+  try {
+    return computeGreens(body, query, setting, threads, false, progress).greens;
+  } catch (const Aborted&) {
+    throw;
+  } catch (const std::runtime_error& failure) {
+    throw std::runtime_error(sentence("the reference needs level ", setting.level, ", at which ",
+                                      failure.what(), ": give --levels that end with a later one"));
+  }
 }
 
 }  // namespace
@@ -72,6 +90,22 @@ Reference Reference::given(std::string name, Eigen::VectorXd values) {
   reference.name_ = std::move(name);
   reference.isForAllRadii_ = true;
   reference.ofRadius_[0] = {std::move(values), 0};
+  return reference;
+}
+
+Reference Reference::boussinesq(const Material& material, const Eigen::Vector3d& normal,
+                                const std::vector<double>& radii, int points) {
+  Reference reference;
+  reference.name_ =
+      "half-space's compliance at the centre of a linear mask in closed form (Boussinesq, Cerruti)";
+  const double nu = material.poissonRatio();
+  for (double radius : radii) {
+    const double across = 3 / std::acos(-1.0) * (1 - nu * nu) / (material.youngsModulus() * radius);
+    const double along = across * (2 - nu) / (2 * (1 - nu));
+    const Eigen::Matrix3d compliance =
+        along * Eigen::Matrix3d::Identity() + (across - along) * normal * normal.transpose();
+    reference.ofRadius_[radius] = {Eigen::VectorXd(compliance.reshaped().replicate(points, 1)), 0};
+  }
   return reference;
 }
 
@@ -92,7 +126,9 @@ Reference Reference::finest(const BodyLevels& body, const Query& query, const Se
     Setting setting = base;
     setting.level = level;
     setting.jumps = TractionJumps::Support;  // converges faster where the support ends
-    const auto greens = computeGreens(body, all, setting, threads, part.callback()).take();
+    // What symmetrising does to a half-space goes with the edges, all else with their square.
+    if (setting.method == Method::HalfSpace) setting.reciprocal = false;
+    const auto greens = ofLevel(body, all, setting, threads, part.callback());
     for (double radius : radii) {
       setting.radius = radius;
       const auto prepared = query.prepare(greens, setting);
@@ -108,7 +144,7 @@ Reference Reference::finest(const BodyLevels& body, const Query& query, const Se
           return relativeError(last, finest + difference, finest);
         });
     reference.ofRadius_[radius] = {found.values, found.uncertainty};
-    if (radius == base.radius) reference.name_ = nameOf(found, body, first);
+    if (radius == base.radius) reference.name_ = nameOf(found, body, base.method, first);
   }
   return reference;
 }

@@ -16,6 +16,12 @@ class Reference {
   static Reference exact(std::string name);
   /// Numbers from elsewhere, for all radii.
   static Reference given(std::string name, Eigen::VectorXd values);
+  /// Boussinesq's and Cerruti's solutions integrated over linear masks in the middle of a
+  /// half-space's surface: the compliance at their centres.
+  /// @param normal  out of the half-space.
+  /// @param points  how many.
+  static Reference boussinesq(const Material& material, const Eigen::Vector3d& normal,
+                              const std::vector<double>& radii, int points);
   /// Richardson's extrapolation of the finest three levels (of two, if there are no more), with the
   /// support as patches of its own.
   /// @param radii  that there will be settings of.

@@ -32,7 +32,12 @@ enum class TractionJumps {
 };
 
 /// What Green's functions are computed by.
-enum class Method { BoundaryElements, QuadraticTetrahedra, LinearTetrahedra };
+enum class Method { BoundaryElements, QuadraticTetrahedra, LinearTetrahedra, ThinShell, HalfSpace };
+
+/// As `precompute` calls it: bem, fem, shell or halfspace.
+Method methodNamed(const std::string& name);
+/// For people.
+std::string nameOf(Method method);
 
 /// One way to an answer: a value of every knob.
 struct Setting {
@@ -75,6 +80,9 @@ struct Trial {
 struct AccuracyOptions {
   std::string input;
   SupportOptions support;
+  std::string method = "bem";
+  double thickness = 0;  ///< of a shell, m, 0 for the surface's array
+  bool hinged = false;   ///< a shell's fixed vertices may turn
   std::string query = "compliance";
   std::vector<double> points;        ///< x y z of each; empty: spread over the surface
   double radius = 0;                 ///< m, 0 for a mean edge of the surface as it is
@@ -83,8 +91,9 @@ struct AccuracyOptions {
   int baseLevel = 0;       ///< of the knobs other than the level; 0 for the last but one
   int referenceLevel = 0;  ///< the finest that is extrapolated from; 0 for the last of the levels
   std::vector<std::string> knobs;  ///< empty: all that the query has
-  std::string reference = "finest";
-  std::string subdivision = "loop", clock = "wall";
+  std::string reference;           ///< empty: boussinesq where it can be, else finest
+  std::string subdivision;  ///< empty: loop for bodies, curved for shells, flat for half-spaces
+  std::string clock = "wall";
   int repeats = 5, threads = 0;
   double budget = 60;  ///< s that a setting may take in all before it is not repeated any more
 };

@@ -10,8 +10,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "accuracy/tetrahedra.h"
-#include "greens/dense_greens_functions.h"
+#include "accuracy/compute_greens.h"
 
 namespace palpate::app {
 namespace {
@@ -21,12 +20,6 @@ constexpr int kLeastRuns = 2;
 
 double wallSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-AlignedBuffer<float> rounded(const AlignedBuffer<double>& matrix, std::size_t count) {
-  AlignedBuffer<float> result(count);
-  std::copy_n(matrix.data(), count, result.data());
-  return result;
 }
 
 /// What is wrong with a setting that this body is too hard for.
@@ -45,27 +38,6 @@ std::string failureOf(const Work& work) {
 }
 
 }  // namespace
-
-ComputedGreensFunctions computeGreens(const BodyLevels& body, const Query& query,
-                                      const Setting& setting, int threads,
-                                      const ProgressCallback& progress) {
-  if (setting.method != Method::BoundaryElements)
-    return greensByTetrahedra(
-        body.model(setting.level, setting.jumps),
-        setting.method == Method::LinearTetrahedra ? SolidElement::Linear : SolidElement::Quadratic,
-        setting.reciprocal, query.columns(setting), progress);
-  BoundaryElementOptions options;
-  options.precision = setting.precision;
-  options.solver = setting.solver;
-  options.collocation = setting.collocation;
-  options.tolerance = setting.tolerance;
-  options.reciprocal = setting.reciprocal;
-  options.columns = query.columns(setting);
-  options.patchColumns = query.usesPatchColumns();
-  options.threads = threads;
-  return computeBoundaryElementGreensFunctions(body.model(setting.level, setting.jumps), options,
-                                               progress);
-}
 
 Sweep::Sweep(const BodyLevels& body, const Query& query, const std::vector<Setting>& settings,
              const SweepOptions& options, const Progress& progress)
@@ -100,27 +72,20 @@ void Sweep::runGroup(Group& group, const Progress& progress) {
   const Setting& first = group.settings.front();
   const double wall = wallSeconds(), begun = now();
   const std::string failure = failureOf([&] {
-    ComputedGreensFunctions result =
-        computeGreens(body_, query_, first, options_.threads, progress.callback());
-    const double seconds = now() - begun;
-    const std::size_t peakBytes = result.info.diagnostics.peakBytes;
-    const std::size_t rows = 3 * std::size_t(body_.mesh(first.level).vertexCount()),
-                      own = 3 * rows * result.info.columnNodes.size(),
-                      patch = 3 * rows * result.info.patchColumns.size();
-    Stored asFloat{nullptr, sizeof(float) * (own + patch)};
-    for (const Setting& setting : group.settings)
-      if (setting.floatStorage && !asFloat.greens)
-        asFloat.greens = std::make_shared<DenseGreensFunctions<float>>(
-            result.info, rounded(result.matrix, own), rounded(result.patchMatrix, patch));
-    const std::size_t bytes =
-        first.precision == Precision::Float ? asFloat.bytes : 2 * asFloat.bytes;
-    const Stored computed{result.take(), bytes};
+    const bool wantsFloat =
+        std::any_of(group.settings.begin(), group.settings.end(),
+                    [](const Setting& setting) { return setting.floatStorage; });
+    double seconds = 0;
+    const MadeGreens made = computeGreens(body_, query_, first, options_.threads, wantsFloat,
+                                          progress.callback(), [&] { seconds = now() - begun; });
     for (const Setting& setting : group.settings) {
       Sample& sample = samples_.at(setting.key());
-      sample.peakBytes = peakBytes;
+      sample.peakBytes = made.peakBytes;
       if (sample.failure.empty())
-        sample.failure =
-            failureOf([&] { ask(setting, setting.floatStorage ? asFloat : computed, seconds); });
+        sample.failure = failureOf([&] {
+          ask(setting, setting.floatStorage ? made.asFloat : made.greens,
+              setting.floatStorage ? made.floatBytes : made.bytes, seconds);
+        });
     }
   });
   group.hasFailed = !failure.empty();
@@ -129,9 +94,10 @@ void Sweep::runGroup(Group& group, const Progress& progress) {
   group.spent += wallSeconds() - wall;
 }
 
-void Sweep::ask(const Setting& setting, const Stored& stored, double seconds) {
+void Sweep::ask(const Setting& setting, std::shared_ptr<const GreensFunctions> greens,
+                std::size_t bytes, double seconds) {
   Sample& sample = samples_.at(setting.key());
-  const auto query = query_.prepare(stored.greens, setting);
+  const auto query = query_.prepare(greens, setting);
   double begun = now();
   query->evaluate();
   const double once = now() - begun;
@@ -142,8 +108,8 @@ void Sweep::ask(const Setting& setting, const Stored& stored, double seconds) {
   sample.precomputeSeconds.push_back(seconds);
   sample.answer = query->answer();
   if (!sample.answer.values.allFinite()) throw std::runtime_error("the answer is not finite");
-  sample.storedBytes = stored.bytes;
-  sample.columns = stored.greens->columnCount();
+  sample.storedBytes = bytes;
+  sample.columns = greens->columnCount();
 }
 
 }  // namespace palpate::app

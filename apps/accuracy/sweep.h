@@ -3,19 +3,11 @@
 
 #pragma once
 
-#include <functional>
 #include <map>
 
 #include "accuracy/query.h"
-#include "greens/computed_greens_functions.h"
 
 namespace palpate::app {
-
-/// @param progress  of the computation alone.
-/// @throws as computeBoundaryElementGreensFunctions.
-ComputedGreensFunctions computeGreens(const BodyLevels& body, const Query& query,
-                                      const Setting& setting, int threads,
-                                      const ProgressCallback& progress);
 
 /// What was seen of a setting.
 struct Sample {
@@ -50,12 +42,8 @@ class Sweep {
     bool hasFailed = false;
   };
   void runGroup(Group& group, const Progress& progress);
-  /// A storage of Green's functions.
-  struct Stored {
-    std::shared_ptr<const GreensFunctions> greens;
-    std::size_t bytes;
-  };
-  void ask(const Setting& setting, const Stored& stored, double seconds);
+  void ask(const Setting& setting, std::shared_ptr<const GreensFunctions> greens, std::size_t bytes,
+           double seconds);
   double now() const;
 
   const BodyLevels& body_;
