@@ -11,6 +11,7 @@
 #include "mesh/smooth_patches.h"
 #include "model/support.h"
 #include "sentence.h"
+#include "shell/shell_refinement.h"
 #include "subdivision_option.h"
 
 namespace palpate::app {
@@ -59,24 +60,12 @@ BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& 
                                                 : findSmoothPatches(*mesh, kSmoothAngle);
     const BoundaryConditions conditions(refineBoundaryTypes(made, coarse.conditions.types()));
     Level fine{mesh, conditions, patches, std::move(made)};
-    if (domain_ == Domain::Shell) refineShell(coarse, fine);
+    if (domain_ == Domain::Shell) {
+      fine.thickness = refineThickness(fine.made, coarse.mesh->triangles(), coarse.thickness);
+      fine.held = refineHeldComponents(fine.made, coarse.held);
+    }
     levels_.push_back(std::move(fine));
   }
-}
-
-/// Thickness is linear between the corners, and a new vertex is held as both ends of its edge are.
-void BodyLevels::refineShell(const Level& coarse, Level& fine) const {
-  fine.thickness.resize(3, fine.mesh->triangleCount());
-  for (int f = 0; f < fine.mesh->triangleCount(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const SurfacePoint parent =
-          parentPoint(fine.made, coarse.mesh->triangles(), {f, Eigen::Vector3d::Unit(k)});
-      fine.thickness(k, f) = coarse.thickness.col(parent.triangle).dot(parent.barycentric);
-    }
-  fine.held.resize(6, fine.mesh->vertexCount());
-  for (int v = 0; v < fine.mesh->vertexCount(); ++v)
-    fine.held.col(v) =
-        coarse.held.col(fine.made.parents(0, v)) && coarse.held.col(fine.made.parents(1, v));
 }
 
 bool BodyLevels::hasSharpEdges(int level) const {

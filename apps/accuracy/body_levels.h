@@ -50,7 +50,6 @@ class BodyLevels {
     Eigen::Matrix3Xd thickness = {};  ///< of shells, and what is held of them
     HeldComponents held = {};
   };
-  void refineShell(const Level& coarse, Level& fine) const;
   Eigen::VectorXi patches(const Level& level, TractionJumps jumps) const;
   const Level& at(int level) const { return levels_.at(level - 1); }
 

@@ -47,7 +47,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
                tolerance=None, columns=None, domain="interior", reciprocal=True,
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
-               estimate_error=True, max_levels=None, max_vertices=None, subdivision=None,
+               estimate_error=None, max_levels=None, max_vertices=None, subdivision=None,
                volume=None, element="quadratic", cell_size=0.0, probes=None, thickness=None,
                clamped=True, edge_length=None):
     """Compute the Green's functions of an elastic body from its surface.
@@ -113,10 +113,11 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     support_patch : bool, optional
         End the support's traction at its rim and not half an edge beyond, which is several times more
         accurate near it. By default with a `tolerance` only.
-    estimate_error : bool
-        Of boundary and finite elements: estimate the error on a coarser mesh, or for small surfaces on
-        a finer one (filled anew, but not with several materials): the field arrays
-        `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails.
+    estimate_error : bool, optional
+        Of boundary and finite elements, where it is the default: estimate the error on a coarser mesh, or
+        for small surfaces on a finer one (filled anew, but not with several materials): the field arrays
+        `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails. Of shells of up to a
+        thousand vertices, where it is not: on four times as many, in sixteen times the time.
     max_levels, max_vertices : int, optional
         How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
     subdivision : {"loop", "flat", "curved"}, optional
@@ -193,6 +194,7 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
     elif method == "shell":
         greens = vtkShellGreensFunctions()
         greens.SetClamped(flag(clamped, "clamped"))
+        greens.SetEstimateError(flag(False if estimate_error is None else estimate_error, "estimate_error"))
     else:
         greens = vtkHalfSpaceGreensFunctions()
     problem = posed(surface, young, poisson, fixed)
@@ -254,7 +256,7 @@ def boundary_of(grid):
 
 METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
-    "estimate_error": ("bem", "fem"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
+    "estimate_error": ("bem", "fem", "shell"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
     "probes": ("fem",), "edge_length": ("bem", "fem"),
     "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem"),
 }
@@ -302,7 +304,7 @@ def finite_elements(volume, element, cell_size, probes, domain, smooth_angle, pa
         filter.SetInputData(1, volume)
     filter.SetElement(choice(element, {"linear": 0, "quadratic": 1}, "element"))
     filter.SetCellSize(number(cell_size, "cell_size"))
-    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
+    filter.SetEstimateError(flag(True if estimate_error is None else estimate_error, "estimate_error"))
     filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     filter.SetPatchColumns(flag(patch_columns, "patch_columns"))
     return filter
@@ -319,7 +321,7 @@ def boundary_elements(columns, precision, tolerance, domain, smooth_angle, collo
         bem = vtkBoundaryElementGreensFunctions()
         bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
         bem.SetSolver(choice(solver, {"direct": 0, "iterative": 1}, "solver"))
-        bem.SetEstimateError(flag(estimate_error, "estimate_error"))
+        bem.SetEstimateError(flag(True if estimate_error is None else estimate_error, "estimate_error"))
         if integration_tolerance is not None:
             bem.SetTolerance(number(integration_tolerance, "integration_tolerance"))
     else:

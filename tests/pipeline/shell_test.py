@@ -262,6 +262,23 @@ class Filter(unittest.TestCase):
         np.testing.assert_allclose(reaction, (0, 0, loaded), atol=1e-9 * loaded)
 
 
+class Estimate(unittest.TestCase):
+    def test_is_made_where_it_is_asked_for(self):
+        self.assertEqual(palpate.array(shell(plate(4)), "ErrorEstimate")[0], -1)
+        coarse, fine = (palpate.array(shell(plate(n), estimate_error=True), "ErrorEstimate")[0] for n in (6, 12))
+        self.assertTrue(0 < fine < 0.6 * coarse < 0.2, (coarse, fine))
+
+    def test_is_an_option_of_the_filter_that_is_off(self):
+        greens = palpate.vtkShellGreensFunctions()
+        surface = palpate.precompute(plate(4), YOUNG, POISSON, fixed=left(plate(4)), method="shell",
+                                     thickness=THICKNESS)
+        greens.SetInputData(surface)
+        self.assertFalse(greens.GetEstimateError())
+        greens.EstimateErrorOn()
+        greens.Update()
+        self.assertGreater(palpate.array(greens.GetOutput(), "ErrorEstimate")[0], 0)
+
+
 class Program(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -280,6 +297,12 @@ class Program(unittest.TestCase):
         require_all_commands(self, self.model, self.out, made_by="thin shell (DKT and OPT triangles, 288 of them, thickness 0.001, clamped)",
                              radius=0.03, tool_radius=0.03)
 
+    def test_estimates_its_error(self):
+        made = self.precompute(self.model, "--thickness", THICKNESS, "--estimate")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertRegex(made.stdout, r"estimated error +\d")
+        self.assertRegex(run("info", self.model).stdout, r"estimated error +\d")
+
     def test_refuses_in_a_sentence(self):
         for options, sentence in (
                 ((), "the shell has no thickness"),
@@ -294,7 +317,7 @@ class Program(unittest.TestCase):
             self.assertNotEqual(refused.returncode, 0)
             self.assertIn(sentence, refused.stderr)
             self.assertFalse(os.path.exists(self.out))
-        for option in (("--thickness", THICKNESS), ("--hinged",)):
+        for option in (("--thickness", THICKNESS), ("--hinged",), ("--estimate",)):
             refused = run("precompute", self.surface, self.out, "--young", YOUNG, "--poisson", POISSON,
                           *option)
             self.assertIn(f"{option[0]} makes no sense with --method bem", refused.stderr)

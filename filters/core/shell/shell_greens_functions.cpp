@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "greens/reciprocity.h"
+#include "shell/shell_refinement.h"
 #include "shell/shell_response.h"
 #include "shell/shell_system.h"
 #include "shell/shell_warnings.h"
@@ -16,6 +17,7 @@
 namespace palpate {
 namespace {
 
+constexpr double kOwnShare = 0.1;        ///< of the time with an estimate
 constexpr double kLargestDefect = 0.05;  // of a rigid motion: beyond, little else can be right
 
 /// shellResponse, if rounding lets it be one.
@@ -48,7 +50,8 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
                                                     const ThinShell& shell,
                                                     const ShellOptions& options,
                                                     const ProgressCallback& callback) {
-  const Progress progress(callback);
+  const Progress whole(callback);
+  const Progress progress = whole.part(0, options.estimateError ? kOwnShare : 1);
   ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
@@ -82,7 +85,12 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
   info.diagnostics.rockingCompliance = rockingCompliance(*result.view(), model.mesh());
   info.diagnostics.warnings = shell::shellWarnings(model, shell, info.diagnostics.rotationDefect);
   addSeconds(info.diagnostics, "check", watch.seconds());
-  progress.report(1, "done");
+  if (options.estimateError) {
+    info.diagnostics.error =
+        estimateShellError(model, shell, *result.view(), whole.part(kOwnShare, 1));
+    addSeconds(info.diagnostics, "estimate", watch.seconds());
+  }
+  whole.report(1, "done");
   return result;
 }
 

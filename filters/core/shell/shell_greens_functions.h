@@ -17,6 +17,8 @@ struct ShellOptions {
   std::vector<int> columns;
   /// Take off what rounding leaves of the compliance's asymmetry.
   bool reciprocal = true;
+  /// Also estimate the error on a finer mesh (estimateShellError).
+  bool estimateError = false;
 };
 
 /// Computes the discrete Green's functions of a thin shell (Kirchhoff and Love: lines across it

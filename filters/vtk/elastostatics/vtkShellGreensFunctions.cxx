@@ -19,7 +19,8 @@ void vtkShellGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Thickness: " << this->Thickness << "\n"
-     << indent << "Clamped: " << this->Clamped << "\n";
+     << indent << "Clamped: " << this->Clamped << "\n"
+     << indent << "EstimateError: " << this->EstimateError << "\n";
 }
 
 void vtkShellGreensFunctions::Compute(
@@ -42,6 +43,7 @@ void vtkShellGreensFunctions::Compute(
       palpate::ShellOptions options;
       options.reciprocal = this->Reciprocal;
       options.columns = this->Columns(input->GetNumberOfPoints());
+      options.estimateError = this->EstimateError;
       convert::setGreensFunctions(arrays, model,
         palpate::computeShellGreensFunctions(model, shell, options,
           [this](double fraction, const char* stage)

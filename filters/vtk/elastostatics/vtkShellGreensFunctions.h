@@ -53,6 +53,16 @@ public:
   vtkBooleanMacro(Clamped, bool);
   ///@}
 
+  ///@{
+  /**
+   * Estimate the relative error (palpate::estimateShellError) on a mesh of four times the vertices, which
+   * takes sixteen times as long as the model itself; of models of up to a thousand vertices. Default off.
+   */
+  vtkSetMacro(EstimateError, bool);
+  vtkGetMacro(EstimateError, bool);
+  vtkBooleanMacro(EstimateError, bool);
+  ///@}
+
 protected:
   vtkShellGreensFunctions() = default;
   ~vtkShellGreensFunctions() override = default;
@@ -64,6 +74,7 @@ private:
 
   double Thickness = 0;
   bool Clamped = true;
+  bool EstimateError = false;
 };
 
 #endif
