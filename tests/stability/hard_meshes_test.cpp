@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "mesh/surface_map.h"
 #include "stability/hard_case.h"
 #include "support/pole_compliance.h"
 #include "support/problems.h"
@@ -286,6 +287,31 @@ TEST(SecondBody, WithoutSupportIsNamed) {
   hard("two bodies, one unsupported", "a singular system that does not look so")
       .expectRefused([&] { makeModel(both, cap, 1, 0.3); },
                      "the body of vertex 42 has no fixed node");
+}
+
+TEST(ThinWall, IsShownFromItsOwnSideByAMeshThatCutsIntoIt) {
+  // A wall bent to a half circle, whose coarse chords are farther from it than it is thick.
+  const double thickness = 0.01;
+  const auto bent = [&](int along) {
+    return box({M_PI, 1, thickness}, {along, 4, 1})
+        .mapped([](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+          const double r = 1 + x.z();
+          return {-r * std::cos(x.x()), x.y(), r * std::sin(x.x())};
+        })
+        .mesh();
+  };
+  const auto fine = bent(64), coarse = bent(8);
+  const SurfaceMap map = mapOnto(coarse, fine->points(), fine->vertexNormals());
+  long far = 0;
+  for (int v = 0; v < fine->vertexCount(); ++v)
+    far += coarse->triangleNormals().col(map.places[v].triangle).dot(fine->vertexNormals().col(v)) <
+           -0.5;
+  const HardCase wall =
+      hard("a bent wall of 1 : 300 shown by a mesh of chords twice as far from it as it is thick",
+           "what the far side does is shown");
+  wall.expectAtLeast("distance between the meshes over the thickness",
+                     map.largestDistance / thickness, 1);
+  wall.expectCount("vertices shown from the far side", far, 0);
 }
 
 }  // namespace
