@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "bem/interior_probes.h"
 #include "fem/finite_element_method.h"
 #include "support/refusals.h"
 #include "support/solids.h"
@@ -129,6 +130,18 @@ TEST(HeldDisplacements, TellAModelFromOthers) {
   };
   EXPECT_EQ(fingerprint(none), half.model.fingerprint());
   EXPECT_NE(fingerprint(held), half.model.fingerprint());
+}
+
+TEST(HeldDisplacements, LeaveTheInsideToTheElementsOwnProbes) {
+  const SolidProblem half = solidProblem(block(false), onBase, 1, 0.3);
+  FiniteElementOptions options;
+  options.held = acrossThePlane(half.model);
+  options.probes = Eigen::Vector3d(0.4, 0.5, 0.7);
+  const auto greens = half.greens(options);
+  EXPECT_EQ(greens->info().probes->count(), 1);
+  EXPECT_TRUE(isRefused([&] { probeRows(*greens, half.model, options.probes); }, "material"));
+  options.held.setConstant(false);
+  EXPECT_EQ(probeRows(*half.greens(options), half.model, options.probes).count(), 1);
 }
 
 TEST(HeldDisplacements, OfWrongSizeOfAWholeFreeVertexOrOfALooseBodyAreRefused) {

@@ -167,7 +167,9 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
   if (options.held.any()) info.fingerprint = fingerprintWith(options.held, info.fingerprint);
-  info.homogeneous = body.isOf(model.material());
+  // What holds single components bears tractions that nobody is told, without which the surface's
+  // solution says nothing of the inside.
+  info.homogeneous = body.isOf(model.material()) && !options.held.any();
   info.density = body.density();
   info.source = describeSource(body, options.element);
   info.reciprocal = options.reciprocal;

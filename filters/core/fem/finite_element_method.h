@@ -27,7 +27,8 @@ struct FiniteElementOptions {
   /// each as exact as can be.
   bool reciprocal = true;
   /// Components that symmetry or a guide holds, 3 by #V, or empty for none: along them a force does
-  /// nothing. Where all three are, the vertex has to be fixed.
+  /// nothing. Where all three are, the vertex has to be fixed. What these bear is not known, so
+  /// that such a body is looked into by its `probes` alone, as one of several materials.
   HeldDisplacements held;
   /// Also estimate the error on another mesh of the model, filled anew (see estimateError); unknown
   /// for bodies of several materials and where single components are held.
