@@ -23,6 +23,7 @@ void addGravity(CLI::App& program);
 void addIdentify(CLI::App& program);
 void addMeasure(CLI::App& program);
 void addPress(CLI::App& program);
+void addRecover(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);
 void addAccuracy(CLI::App& program);

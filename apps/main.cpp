@@ -76,9 +76,10 @@ int main(int argc, char** argv) {
     for (const CLI::App* sub : app->get_subcommands()) name += " " + sub->get_name();
     return "palpate: " + std::string(error.what()) + " (see `" + name + " --help`)\n";
   });
-  for (const auto add : {addInfo, addRepair, addRefine, addRemesh, addOriginal, addPrecompute,
-                         addImport, addMeasure, addIdentify, addFoundation, addPress, addGravity,
-                         addStiffness, addArtifacts, addAccuracy, addDevices, addTouch, addGrasp})
+  for (const auto add :
+       {addInfo, addRepair, addRefine, addRemesh, addOriginal, addPrecompute, addImport, addMeasure,
+        addIdentify, addFoundation, addPress, addRecover, addGravity, addStiffness, addArtifacts,
+        addAccuracy, addDevices, addTouch, addGrasp})
     add(program);
   catchInterrupts();
   try {

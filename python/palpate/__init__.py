@@ -22,9 +22,11 @@ from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
 from .identification import (
+    displacement_table,
     identify,
     identify_field,
     measurement_table,
+    recover_contacts,
     simulate_measurements,
 )
 from .imports import import_compliance, import_stiffness
@@ -39,6 +41,7 @@ __all__ = [
     "ModelWarning",
     "__version__",
     "array",
+    "displacement_table",
     "example",
     "foundation",
     "gravity",
@@ -55,6 +58,7 @@ __all__ = [
     "probe",
     "read",
     "read_volume",
+    "recover_contacts",
     "refine",
     "remesh",
     "repair",

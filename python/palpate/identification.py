@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials, and with them Green's functions, from measurements."""
+"""Materials, and with them Green's functions, and contacts from measurements."""
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
@@ -20,6 +20,7 @@ from .errors import Error, run
 from .files import path_of
 from .imports import is_path
 from .PalpateElastostatics import (
+    vtkContactRecovery,
     vtkGreensFunctionIdentification,
     vtkRigSimulation,
     vtkStiffnessFieldIdentification,
@@ -29,7 +30,8 @@ from .precomputation import boundary_of, computed, posed
 LOSSES = {"none": 0, "huber": 1, "cauchy": 2, "tukey": 3}
 MOST = 2**31 - 1
 
-__all__ = ["identify", "identify_field", "measurement_table", "simulate_measurements"]
+__all__ = ["displacement_table", "identify", "identify_field", "measurement_table",
+           "recover_contacts", "simulate_measurements"]
 
 
 def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
@@ -293,34 +295,13 @@ def measurement_table(probe, displacements, forces, *, markers=None, marker_vert
     shown = numbers(displacements, "displacements")
     count, probes = len(np.atleast_1d(shown)), len(np.atleast_1d(numbers(forces, "forces")))
 
-    def add(name, values, shape, what):
-        values = numbers(values, what)
-        try:
-            values = np.broadcast_to(values, shape)
-        except ValueError:
-            raise Error(f"{what} must be {' by '.join(map(str, shape))} numbers, not "
-                        f"{'x'.join(map(str, values.shape))}") from None
-        components = shape[1] if len(shape) > 1 else 1
-        table.GetFieldData().AddArray(as_vtk(np.array(values), name, components, float))
-
-    def add_places(kind, vertices, places, rows, what):
-        if (vertices is None) == (places is None):
-            raise Error(f"{what} are given as vertices or as places: give one of the two")
-        if vertices is not None:
-            add(f"{kind}Vertex", vertices, (rows,), what)
-        else:
-            add(f"{kind}Point", places, (rows, 3), what)
-
-    add("MeasurementProbe", probe, (count,), "probe")
-    add("MeasuredDisplacement", shown, (count, 3), "displacements")
-    add("ProbeForce", forces, (probes, 3), "forces")
-    add("ProbeRadius", radius, (probes,), "radius")
-    add_places("Measurement", marker_vertices, markers, count, "markers")
-    add_places("Probe", contact_vertices, contacts, probes, "contacts")
-    if deviations is not None:
-        given = numbers(deviations, "deviations")
-        add("MeasurementDeviation", given[:, None] if given.ndim == 1 else given, (count, 3),
-            "deviations")
+    add_tuples(table, "MeasurementProbe", probe, (count,), "probe")
+    add_tuples(table, "MeasuredDisplacement", shown, (count, 3), "displacements")
+    add_tuples(table, "ProbeForce", forces, (probes, 3), "forces")
+    add_tuples(table, "ProbeRadius", radius, (probes,), "radius")
+    add_places(table, "Measurement", marker_vertices, markers, count, "markers")
+    add_places(table, "Probe", contact_vertices, contacts, probes, "contacts")
+    add_deviations(table, deviations, count)
     return table
 
 
@@ -392,3 +373,163 @@ def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=Non
     rig.SetSupportYieldLength(number(yield_length, "yield_length"))
     rig.SetSeed(whole_number(seed, "seed", MOST))
     return run(rig, progress_callback(None))
+
+
+def recover_contacts(model, displacements, *, probe=None, friction=0.5, noise=None, patch_radius=None,
+                     yielding_support=True, samples=50, seed=1, length_unit="m", place_tolerance=0.02,
+                     progress=None):
+    """Recover the contacts that displacements of a body's surface are due to.
+
+    Parameters
+    ----------
+    model : vtkPolyData
+        The body, from `precompute`.
+    displacements : str, path-like or vtkPolyData
+        A table: a file (`palpate recover --help` tells its columns), or polydata that carry it as
+        field arrays, such as from `displacement_table` or `simulate_measurements`, whose forces are
+        passed over.
+    probe : str, optional
+        Whose displacements, where the table has those of several.
+    friction : float
+        Largest tangential over normal force; 0 for contacts without friction.
+    noise : float, optional
+        Standard deviation of a displacement's component, m; by default what the table says, or what
+        the residuals tell.
+    patch_radius : float, optional
+        Of the patches that forces are spread over, m; 0 for single vertices; by default as the
+        displacements tell.
+    yielding_support : bool
+        Let the support give way more or less than the model's, where the displacements tell.
+    samples, seed : int
+        Sets of noise that the deviations are found from, and what they begin with.
+    length_unit : str
+        Of the table, the surface's being metres: as in `import_compliance`.
+    place_tolerance : float
+        How far a place may be from the surface, over its diagonal.
+    progress : callable or bool, optional
+        Called as progress(fraction, stage); return False to abort. True shows a bar.
+
+    Returns
+    -------
+    vtkPolyData
+        The model with `Traction`, `Displacement`, `ContactPressure` and `ContactPressureDeviation` at
+        its points, and field arrays with a tuple a contact, the strongest first: `ContactForce`,
+        `ContactForceDeviation`, `ContactCentre`, `ContactCentreDeviation`, `ContactPeak` and more (see
+        array_names.h). What is doubtful is said in `RecoveryWarnings`.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the table, or that it tells no contact.
+    Aborted
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.refine(palpate.read(palpate.example("nodule")), levels=2)
+    >>> model = palpate.precompute(nodule, young=20e3, poisson=0.4, estimate_error=False)
+    >>> pressed = palpate.press(model, point=(0, 0, 1), force=(0, 0, -1), radius_edges=2)
+    >>> seen = range(0, pressed.GetNumberOfPoints(), 2)
+    >>> u = palpate.array(pressed, "Displacement")[seen]
+    >>> table = palpate.displacement_table(u, vertices=seen)
+    >>> contacts = palpate.recover_contacts(model, table)
+    >>> bool(abs(palpate.array(contacts, "RecoveredForce")[0, 2] + 1) < 0.05)
+    True
+    """
+    filter = vtkContactRecovery()
+    filter.SetInputData(surface_of(model))
+    if is_path(displacements):
+        filter.SetDisplacementFileName(path_of(displacements))
+    elif isinstance(displacements, vtkPolyData):
+        filter.SetInputData(1, displacements)
+    else:
+        raise Error("displacements must be a file or a vtkPolyData that carries their table, not "
+                    f"{type(displacements).__name__}")
+    if not isinstance(length_unit, str):
+        raise Error(f"a unit must be a string, not {type(length_unit).__name__}")
+    filter.SetLengthUnit(length_unit)
+    if probe is not None:
+        filter.SetProbeName(str(probe))
+    filter.SetFriction(number(friction, "friction"))
+    if noise is not None:
+        filter.SetNoise(number(noise, "noise"))
+    if patch_radius is not None:
+        radius = number(patch_radius, "patch_radius")
+        if radius < 0:
+            raise Error(f"patch_radius must not be negative, not {radius:g}")
+        filter.SetPatchRadius(radius)
+    filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    filter.SetNumberOfSamples(whole_number(samples, "samples", 100000))
+    filter.SetSeed(whole_number(seed, "seed", MOST))
+    filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))
+    return run(filter, progress_callback(progress))
+
+
+def displacement_table(displacements, *, points=None, vertices=None, deviations=None):
+    """Displacements in arrays as a table for `recover_contacts`.
+
+    Parameters
+    ----------
+    displacements : array_like
+        m by 3, metres; NaN where a component was not seen.
+    points : array_like, optional
+        m by 3: where, at rest; or instead
+    vertices : array_like of int, optional
+        m vertices of the surface.
+    deviations : float or array_like, optional
+        Standard deviations of the displacements: one number, m, or m by 3.
+
+    Returns
+    -------
+    vtkPolyData
+        Without points, with the table as field arrays (see array_names.h).
+
+    Raises
+    ------
+    Error
+        If sizes do not go together, or places are given twice or not at all.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> table = palpate.displacement_table([[0, 0, -1e-3], [1e-4, 0, 0]], vertices=[3, 8])
+    >>> palpate.array(table, "MeasuredDisplacement").shape
+    (2, 3)
+    """
+    table = vtkPolyData()
+    count = len(np.atleast_1d(numbers(displacements, "displacements")))
+    add_tuples(table, "MeasuredDisplacement", displacements, (count, 3), "displacements")
+    add_places(table, "Measurement", vertices, points, count, "points")
+    add_deviations(table, deviations, count)
+    return table
+
+
+def add_tuples(table, name, values, shape, what):
+    """A field array of numbers, spread over a shape if they are fewer."""
+    values = numbers(values, what)
+    try:
+        values = np.broadcast_to(values, shape)
+    except ValueError:
+        raise Error(f"{what} must be {' by '.join(map(str, shape))} numbers, not "
+                    f"{'x'.join(map(str, values.shape))}") from None
+    components = shape[1] if len(shape) > 1 else 1
+    table.GetFieldData().AddArray(as_vtk(np.array(values), name, components, float))
+
+
+def add_places(table, kind, vertices, places, rows, what):
+    """Vertices or places, one of the two."""
+    if (vertices is None) == (places is None):
+        raise Error(f"{what} are given as vertices or as places: give one of the two")
+    if vertices is not None:
+        add_tuples(table, f"{kind}Vertex", vertices, (rows,), what)
+    else:
+        add_tuples(table, f"{kind}Point", places, (rows, 3), what)
+
+
+def add_deviations(table, deviations, count):
+    """Standard deviations, if there are any."""
+    if deviations is not None:
+        given = numbers(deviations, "deviations")
+        add_tuples(table, "MeasurementDeviation", given[:, None] if given.ndim == 1 else given,
+                   (count, 3), "deviations")

@@ -62,7 +62,6 @@ Errors errorsOf(const ContactRecovery& result, const SurfaceMesh& mesh,
 
 TEST(ContactRecovery, ExactDisplacementsGiveTheForceThatCausedThem) {
   const TouchedBody& body = coarseSphere();
-  const Eigen::Vector3d place = body.mesh().points().col(17);
   ASSERT_FALSE(body.model.conditions().isFixed(17));
   const Eigen::Vector3d force = -2 * body.mesh().vertexNormals().col(17);
   Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, body.mesh().vertexCount());

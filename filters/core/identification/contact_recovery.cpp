@@ -16,8 +16,9 @@ namespace palpate {
 namespace {
 
 constexpr double kRadii[] = {0, 1.5, 2, 2.8, 4, 5.6, 8};  // in mean edges
-constexpr double kRing = 1.2;                             // likewise: sites beside a site
-constexpr double kShareOfPeak = 1e-3;                     // from which on a node bears
+constexpr int kMostWorse = 2;          // radii one after the other that explain less
+constexpr double kRing = 1.2;          // likewise: sites beside a site
+constexpr double kShareOfPeak = 1e-3;  // from which on a node bears
 constexpr double kLargeMisfit = 1.5;
 constexpr double kLargeDeviation = 0.2;                // of a force
 constexpr double kAtLimit = 0.98, kMostAtLimit = 0.9;  // of the friction; of a contact's force
@@ -86,6 +87,7 @@ std::vector<LoadSite> Recovery::sitesOf(const GreensFunctions& greens, const Sur
 void Recovery::findHypothesis() {
   const bool isKnown = observed_.deviations.cols() > 0;
   double done = 0;
+  int worse = 0;
   for (double edges : kRadii) {
     progress_.report(0.2 + 0.5 * done++ / std::size(kRadii), "contacts");
     const double radius = options_.radius >= 0 ? options_.radius : edges * mesh_.meanEdgeLength();
@@ -102,6 +104,9 @@ void Recovery::findHypothesis() {
     if (here.score < best_.score) {
       best_ = std::move(here);
       responses_ = std::move(responses);
+      worse = 0;
+    } else if (++worse == kMostWorse) {
+      break;
     }
     if (options_.radius >= 0) break;
   }

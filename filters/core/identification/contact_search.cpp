@@ -13,13 +13,16 @@ namespace palpate {
 namespace {
 
 constexpr double kTolerance = 0.03;    // of a fit, over the noise
-constexpr double kRoughly = 0.3;       // likewise, where only the squares are asked for
+constexpr double kWorthwhile = 0.6;    // likewise, of a ray, where the noise is not known
+constexpr double kNoiseSettled = 0.9;  // from one estimate of the noise to the next
+constexpr int kMostNoiseRounds = 30;
 constexpr double kYieldSettled = 0.3;  // of the yield's share of the values, likewise
 constexpr double kMostYield = 0.6;     // of all values' norm: beyond, nothing is held
 constexpr int kYieldFreedom = 4;       // counted twice: it must pay well before forces go by it
 constexpr int kPlaceFreedom = 2;       // of a seed
 constexpr int kMostYieldRounds = 8, kMostMoves = 8, kMostSteps = 24;
-constexpr double kLeastLeft = 0.3;  // of the values, for the noise to be told
+constexpr double kLeastLeft = 0.3;       // of the values, for the noise to be told
+constexpr double kLeastFreeValues = 12;  // likewise
 
 ConeLoads loadsAt(const std::vector<LoadSite>& sites, const std::vector<int>& which,
                   double friction) {
@@ -246,9 +249,17 @@ double noiseScale(const LoadResponses& single, const std::vector<LoadSite>& site
   for (std::size_t k = 0; k < sites.size(); ++k) all[k] = static_cast<int>(k);
   ConeLoads loads = loadsAt(sites, all, friction);
   loads.response = single.firm;
-  const ConeFit fit = fitInCones(loads, response.data(), kRoughly);
-  const double left = response.valueCount() - fit.freedom(friction);
-  return left >= kLeastLeft * response.valueCount() ? std::sqrt(fit.squares / left) : -1;
+  const double count = response.valueCount();
+  double scale = response.data().norm() / std::sqrt(count);
+  for (int round = 0; round < kMostNoiseRounds; ++round) {
+    const ConeFit fit = fitInCones(loads, response.data(), kWorthwhile * scale);
+    const double left = count - fit.freedom(friction);
+    if (!(left >= std::max(kLeastLeft * count, kLeastFreeValues))) return -1;
+    const double next = std::sqrt(fit.squares / left);
+    if (!(next < kNoiseSettled * scale)) return std::min(next, scale);
+    scale = next;
+  }
+  return scale;
 }
 
 }  // namespace palpate

@@ -75,8 +75,9 @@ class ContactSearch {
   bool mayYield_;
 };
 
-/// Standard deviation of the noise over that assumed, by the residuals of forces at all sites:
-/// nothing that pushes explains the rest. Negative where the values are too few to tell.
+/// Standard deviation of the noise over that assumed, by the residuals of forces at any sites, each
+/// of which lowers their squares by more than twice the noise's: nothing that pushes explains the
+/// rest. Negative where the values are too few to tell.
 double noiseScale(const LoadResponses& single, const std::vector<LoadSite>& sites,
                   const ObservedResponse& response, double friction);
 

@@ -58,9 +58,11 @@ static_assert(std::size(kNames) == ColumnCount);
 /// One table on its way into Measurements.
 class Table {
  public:
-  Table(std::string_view text, const std::string& path, const MeasurementUnits& units)
+  Table(std::string_view text, const std::string& path, const MeasurementUnits& units,
+        bool hasForces)
       : lines_(text, path), units_(units) {
     result_.source = path;
+    result_.hasForces = hasForces;
     readNames();
     while (lines_.nextWith('#')) readLine();
   }
@@ -119,14 +121,16 @@ void Table::readNames() {
 }
 
 void Table::requireColumns() const {
-  if (!has(ProbeName)) lines_.refuse("there is no column probe");
-  if (!has(ContactVertex) && !hasAll(ContactX))
+  const bool hasForces = result_.hasForces;
+  if (hasForces && !has(ProbeName)) lines_.refuse("there is no column probe");
+  if (hasForces && !has(ContactVertex) && !hasAll(ContactX))
     lines_.refuse(
         "where probes press is missing: contact_vertex, or contact_x, contact_y and "
         "contact_z");
   if (!has(Vertex) && !hasAll(X))
     lines_.refuse("where markers are is missing: vertex, or x, y and z");
-  if (!hasAll(ForceX)) lines_.refuse("forces are missing: force_x, force_y and force_z");
+  if (hasForces && !hasAll(ForceX))
+    lines_.refuse("forces are missing: force_x, force_y and force_z");
   if (!hasAny(Ux)) lines_.refuse("displacements are missing: u_x, u_y and u_z");
   if (hasAny(SdX) && (has(Sd) || !hasAll(SdX)))
     lines_.refuse("standard deviations are sd, or sd_x, sd_y and sd_z");
@@ -150,6 +154,7 @@ RestPlace Table::placeBy(Column vertex, Column x, const char* what) const {
 Probe Table::probeHere(bool isNew, const Probe& before) const {
   Probe probe = before;
   probe.name = std::string(word(ProbeName));
+  if (!result_.hasForces) return probe;
   if (isNew || !word(ContactVertex).empty() || !word(ContactX).empty())
     probe.contact = placeBy(ContactVertex, ContactX, "contact");
   if (isNew || !word(ForceX).empty()) probe.force = vector(ForceX, units_.force);
@@ -178,7 +183,7 @@ void Table::readLine() {
   words_ = wordsOf(lines_.line(), separator_);
   if (words_.size() != columnCount_)
     lines_.refuse("there are ", words_.size(), " words, but ", columnCount_, " columns");
-  if (word(ProbeName).empty()) lines_.refuse("the probe's name is missing");
+  if (has(ProbeName) && word(ProbeName).empty()) lines_.refuse("the probe's name is missing");
   const auto known = probes_.find(word(ProbeName));
   const bool isNew = known == probes_.end();
   const int probe = isNew ? static_cast<int>(result_.probes.size()) : known->second;
@@ -214,16 +219,34 @@ void writePlace(std::ostream& out, const RestPlace& place) {
     out << "," << place.point.x() << "," << place.point.y() << "," << place.point.z();
 }
 
-}  // namespace
-
-Measurements readMeasurementFile(const std::string& path, const MeasurementUnits& units) {
+void requireUnits(const MeasurementUnits& units) {
   const auto isUnit = [](double unit) { return unit > 1e-30 && unit < 1e30; };
   if (!isUnit(units.length) || !isUnit(units.force))
     refuse("units must be positive, not ", units.length, " m and ", units.force, " N");
+}
+
+Measurements tableIn(const std::string& path, const MeasurementUnits& units, bool hasForces) {
   const std::string text = readBytes(path);
-  Measurements measurements = Table(text, path, units).result();
+  Measurements measurements = Table(text, path, units, hasForces).result();
   requireSound(measurements);
   return measurements;
+}
+
+/// What tells of the probe, besides its name.
+bool isOfProbe(int column) {
+  return column >= ContactVertex && column <= ForceZ;
+}
+
+}  // namespace
+
+Measurements readMeasurementFile(const std::string& path, const MeasurementUnits& units) {
+  requireUnits(units);
+  return tableIn(path, units, true);
+}
+
+Measurements readObservationFile(const std::string& path, double length) {
+  requireUnits({length, 1});
+  return tableIn(path, {length, 1}, false);
 }
 
 void writeMeasurementFile(const std::string& path, const Measurements& measurements) {
@@ -231,14 +254,17 @@ void writeMeasurementFile(const std::string& path, const Measurements& measureme
     const bool hasDeviations = measurements.hasDeviations();
     out.precision(17);
     for (int i = 0; i < (hasDeviations ? int(ColumnCount) : int(Sd)); ++i)
-      if (i != Sd) out << (i > 0 ? "," : "") << kNames[i];
+      if (i != Sd && (measurements.hasForces || !isOfProbe(i)))
+        out << (i > 0 ? "," : "") << kNames[i];
     out << "\n";
     for (const MeasuredDisplacement& measured : measurements.displacements) {
       const Probe& probe = measurements.probes[measured.probe];
       out << probe.name << ",";
-      writePlace(out, probe.contact);
-      out << "," << probe.radius << "," << probe.force.x() << "," << probe.force.y() << ","
-          << probe.force.z() << ",";
+      if (measurements.hasForces) {
+        writePlace(out, probe.contact);
+        out << "," << probe.radius << "," << probe.force.x() << "," << probe.force.y() << ","
+            << probe.force.z() << ",";
+      }
       writePlace(out, measured.marker);
       for (double u : measured.displacement) {
         out << ",";

@@ -34,7 +34,14 @@ struct MeasurementUnits {
 ///         begins with the file if it cannot be read; as requireSound.
 Measurements readMeasurementFile(const std::string& path, const MeasurementUnits& units = {});
 
-/// Writes such a table, in metres and newtons, so that it reads back bit by bit.
+/// Reads such a table of what moves under unknown contacts: columns of forces, contacts and radii
+/// may be missing and are passed over, and without the column `probe` all is of one.
+/// @param length  unit of the table, m.
+/// @throws as readMeasurementFile.
+Measurements readObservationFile(const std::string& path, double length = 1);
+
+/// Writes such a table, in metres and newtons, so that it reads back bit by bit;
+/// without forces also without contacts and radii.
 /// @throws std::runtime_error that begins with `path` if it cannot be written.
 void writeMeasurementFile(const std::string& path, const Measurements& measurements);
 

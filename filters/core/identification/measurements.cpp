@@ -149,8 +149,19 @@ void requireSound(const Measurements& measurements) {
     refuse(measurements.source, ": there is no measured displacement");
   for (const MeasuredDisplacement& measured : measurements.displacements)
     requireFinite(measurements, measured);
-  for (const Probe& probe : measurements.probes) requireForce(probe);
+  if (measurements.hasForces)
+    for (const Probe& probe : measurements.probes) requireForce(probe);
   requireOnce(measurements);
+}
+
+std::vector<SurfacePoint> markersOn(const SurfaceMesh& mesh, const Measurements& measurements,
+                                    double tolerance) {
+  const Locator locator(mesh, tolerance);
+  std::vector<SurfacePoint> markers;
+  for (const MeasuredDisplacement& measured : measurements.displacements)
+    markers.push_back(locator.at(measured.marker, measurements.nameOf(measured)));
+  requireSmall(mesh, measurements);
+  return markers;
 }
 
 MeasuredPlaces placesOn(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
@@ -166,9 +177,7 @@ MeasuredPlaces placesOn(const SurfaceMesh& mesh, const BoundaryConditions& condi
                           !conditions.isFixed(mesh.triangles()(k, contact.triangle)));
     if (!isFree) refuse("probe ", probe.name, " presses on the support, where nothing gives way");
   }
-  for (const MeasuredDisplacement& measured : measurements.displacements)
-    places.markers.push_back(locator.at(measured.marker, measurements.nameOf(measured)));
-  requireSmall(mesh, measurements);
+  places.markers = markersOn(mesh, measurements, tolerance);
   return places;
 }
 

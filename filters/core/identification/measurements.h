@@ -42,6 +42,7 @@ struct Measurements {
   std::vector<MeasuredDisplacement> displacements;
   std::string source;            ///< for people: the file
   std::string rowWord = "line";  ///< what `row` counts
+  bool hasForces = true;         ///< else probes are names of what presses, nobody knows where
 
   /// "data.csv, line 7".
   std::string nameOf(const MeasuredDisplacement& measured) const;
@@ -56,6 +57,11 @@ struct Measurements {
 ///         probe without force or contact, rows that repeat or contradict each other, standard
 ///         deviations that some rows have and others have not.
 void requireSound(const Measurements& measurements);
+
+/// The points of a surface nearest to markers.
+/// @throws as placesOn, of markers.
+std::vector<SurfacePoint> markersOn(const SurfaceMesh& mesh, const Measurements& measurements,
+                                    double tolerance);
 
 /// Where probes and markers are on the surface of a model.
 struct MeasuredPlaces {

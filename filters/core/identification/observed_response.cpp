@@ -34,6 +34,39 @@ double largestOf(const Eigen::Matrix3Xd& displacements) {
 
 }  // namespace
 
+ObservedDisplacements observedUnder(const Measurements& measurements,
+                                    const std::vector<SurfacePoint>& markers,
+                                    const std::string& probe, double noise) {
+  constexpr std::size_t most = 8;
+  std::string names;
+  int chosen = probe.empty() && measurements.probes.size() == 1 ? 0 : -1;
+  for (std::size_t p = 0; p < measurements.probes.size(); ++p) {
+    if (!probe.empty() && measurements.probes[p].name == probe) chosen = static_cast<int>(p);
+    if (p < most) names += (p > 0 ? ", " : "") + measurements.probes[p].name;
+  }
+  if (measurements.probes.size() > most) names += " ...";
+  if (chosen < 0)
+    refuse(measurements.source, probe.empty() ? ": choose one of the " : ": there is no probe ",
+           probe.empty() ? sentence(measurements.probes.size(), " probes: ") : probe + " among ",
+           names);
+  if (!(noise >= 0 && std::isfinite(noise)))
+    refuse("the noise must not be negative, not ", noise, " m");
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < measurements.displacements.size(); ++i)
+    if (measurements.displacements[i].probe == chosen) rows.push_back(i);
+  ObservedDisplacements observed;
+  observed.displacements.resize(3, rows.size());
+  if (noise > 0 || measurements.hasDeviations())
+    observed.deviations.setConstant(3, rows.size(), noise);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const MeasuredDisplacement& measured = measurements.displacements[rows[i]];
+    observed.points.push_back(markers[rows[i]]);
+    observed.displacements.col(i) = measured.displacement;
+    if (noise == 0 && measurements.hasDeviations()) observed.deviations.col(i) = measured.deviation;
+  }
+  return observed;
+}
+
 void requireUsable(const SurfaceMesh& mesh, const ObservedDisplacements& observed) {
   const Eigen::Index count = static_cast<Eigen::Index>(observed.points.size());
   if (observed.displacements.cols() != count)

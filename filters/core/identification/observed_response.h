@@ -4,11 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "greens/greens_functions.h"
 #include "identification/load_patches.h"
+#include "identification/measurements.h"
 #include "mesh/surface_mesh.h"
 #include "mesh/surface_point.h"
 #include "progress.h"
@@ -21,6 +22,15 @@ struct ObservedDisplacements {
   Eigen::Matrix3Xd displacements;    ///< 3 by #points, m; NaN where a component was not seen
   Eigen::Matrix3Xd deviations;       ///< 3 by #points, standard, m; empty where not known
 };
+
+/// What was observed under one probe of a table.
+/// @param markers  #displacements, as markersOn gives them.
+/// @param probe    its name; empty where there is one alone.
+/// @param noise    standard deviation of all components, m; 0 for what the table says.
+/// @throws std::invalid_argument naming the probes to choose from.
+ObservedDisplacements observedUnder(const Measurements& measurements,
+                                    const std::vector<SurfacePoint>& markers,
+                                    const std::string& probe, double noise);
 
 /// @throws std::invalid_argument for sizes that differ, less than nine components, a displacement
 /// or

@@ -140,6 +140,30 @@ constexpr const char* ContactPoint = "ContactPoint";               // 3, x^C of 
 constexpr const char* ElasticContactPoint = "ElasticContactPoint"; // 3, x^E, m
 constexpr const char* HapticContactPoint = "HapticContactPoint";   // 3, x^H, m
 
+// Of vtkContactRecovery, besides Displacement and Traction. Point data:
+constexpr const char* ContactPressure = "ContactPressure"; // of the traction, into the body, Pa
+constexpr const char* ContactPressureDeviation = "ContactPressureDeviation"; // standard, by noise, Pa
+constexpr const char* ContactNumber = "ContactNumber"; // int, from 1 with the strongest; 0 none
+// Field data, a tuple a contact, besides ContactForce and ContactTorque (about its centre):
+constexpr const char* ContactForceDeviation = "ContactForceDeviation"; // 3, standard, by noise, N
+constexpr const char* ContactCentre = "ContactCentre"; // 3, of pressure, on the surface at rest, m
+constexpr const char* ContactCentreDeviation = "ContactCentreDeviation"; // of its place, standard, m
+constexpr const char* ContactPeak = "ContactPeak";                       // id of the point
+constexpr const char* ContactPeakPressure = "ContactPeakPressure";       // Pa
+constexpr const char* ContactArea = "ContactArea";                       // m^2
+// Field data of all contacts:
+constexpr const char* RecoveredForce = "RecoveredForce";                   // 3, N
+constexpr const char* RecoveredForceDeviation = "RecoveredForceDeviation"; // 3, standard, by noise, N
+constexpr const char* ObservedPoint = "ObservedPoint"; // 3, on the surface at rest, a tuple a marker, m
+constexpr const char* ObservedDisplacement = "ObservedDisplacement"; // 3, m, NaN where not seen
+constexpr const char* ObservedResidual = "ObservedResidual";         // 3, less the explained, m
+constexpr const char* ObservationNoise = "ObservationNoise";         // standard deviation, m
+constexpr const char* ObservationMisfit = "ObservationMisfit"; // over the deviations given, or -1
+constexpr const char* LoadPatchRadius = "LoadPatchRadius";     // m; 0 for single vertices
+constexpr const char* RecoveredSupportYield = "RecoveredSupportYield"; // 2: m/N, rad/(N m)
+constexpr const char* SupportYieldShare = "SupportYieldShare"; // of the observed displacements
+constexpr const char* RecoveryWarnings = "RecoveryWarnings";   // strings
+
 // Field data of vtkStiffnessArtifacts: two values each, of single vertices and under the mask.
 constexpr const char* ArtifactVariation = "ArtifactVariation"; // of |K| about its smooth part
 constexpr const char* ArtifactAreaCorrelation = "ArtifactAreaCorrelation"; // Spearman's, with areas
@@ -238,7 +262,10 @@ constexpr const char* MeasurementTable[] = { MeasurementProbe, MeasurementRow, M
 /// Point and field data of one contact.
 constexpr const char* ContactResults[] = { Displacement, Traction, ContactForce, ContactTorque,
   ContactRotation, ContactCondition, LargestDisplacementGradient, ContactPoint, ElasticContactPoint,
-  HapticContactPoint };
+  HapticContactPoint, ContactPressure, ContactPressureDeviation, ContactNumber, ContactForceDeviation,
+  ContactCentre, ContactCentreDeviation, ContactPeak, ContactPeakPressure, ContactArea, RecoveredForce,
+  RecoveredForceDeviation, ObservedPoint, ObservedDisplacement, ObservedResidual, ObservationNoise,
+  ObservationMisfit, LoadPatchRadius, RecoveredSupportYield, SupportYieldShare, RecoveryWarnings };
 /// Cell data of one contact.
 constexpr const char* ContactCellResults[] = { Strain, Stress, VonMisesStress, PrincipalStress };
 /// Point data of all contacts with one model, and field data of one mask.

@@ -16,6 +16,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <map>
 
 namespace palpate::convert
 {
@@ -110,28 +111,6 @@ void setPlaces(vtkPolyData* table, const char* vertexName, const char* pointName
   setFieldVectors(table, pointName, points);
 }
 
-/// What setFieldVectors refuses: NaN stands for what was not measured.
-void setVectorsWithGaps(vtkPolyData* table, const char* name, const Eigen::Matrix3Xd& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(values.cols());
-  std::copy_n(values.data(), values.size(), array->GetPointer(0));
-  table->GetFieldData()->AddArray(array);
-}
-
-void setColumn(vtkPolyData* table, const char* name, const std::vector<double>& values)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  for (double value : values)
-  {
-    array->InsertNextValue(value);
-  }
-  table->GetFieldData()->AddArray(array);
-}
-
 void setTuples(vtkPolyData* table, const char* name, const Eigen::MatrixXd& rows)
 {
   vtkNew<vtkDoubleArray> array;
@@ -168,14 +147,15 @@ void readProbes(vtkPolyData* table, double length, double force, Measurements& r
 }
 } // namespace
 
-Measurements measurementsOf(vtkPolyData* table, double length, double force)
+namespace
 {
-  Measurements result;
-  result.source = "the table of measurements";
-  result.rowWord = "tuple";
-  readProbes(table, length, force, result);
+/// Displacements of the probes that are there; without any all are of one.
+void readDisplacements(vtkPolyData* table, double length, Measurements& result)
+{
   const vtkIdType count = tupleCount(table, arrays::MeasuredDisplacement);
-  vtkDataArray* probes = requiredArray(table, arrays::MeasurementProbe, 1, count);
+  vtkDataArray* probes = result.probes.empty()
+    ? optionalArray(table, arrays::MeasurementProbe, 1, count)
+    : requiredArray(table, arrays::MeasurementProbe, 1, count);
   vtkDataArray* displacements = requiredArray(table, arrays::MeasuredDisplacement, 3, count);
   vtkDataArray* deviations = table->GetFieldData()->GetArray(arrays::MeasurementDeviation);
   if (deviations)
@@ -184,12 +164,16 @@ Measurements measurementsOf(vtkPolyData* table, double length, double force)
       table, arrays::MeasurementDeviation, deviations->GetNumberOfComponents() == 3 ? 3 : 1, count);
   }
   const Places markers(table, arrays::MeasurementVertex, arrays::MeasurementPoint, count, length);
+  const vtkIdType known = result.probes.empty() ? VTK_INT_MAX : result.probes.size();
   for (vtkIdType i = 0; i < count; ++i)
   {
     MeasuredDisplacement measured;
     measured.row = static_cast<int>(i);
-    measured.probe = vertexNumber(probes->GetComponent(i, 0), result.probes.size(),
-      std::string(arrays::MeasurementProbe) + ", tuple ", i);
+    if (probes)
+    {
+      measured.probe = vertexNumber(
+        probes->GetComponent(i, 0), known, std::string(arrays::MeasurementProbe) + ", tuple ", i);
+    }
     measured.marker = markers[i];
     measured.displacement = length * vectorAt(displacements, i);
     for (int c = 0; deviations && c < 3; ++c)
@@ -198,6 +182,68 @@ Measurements measurementsOf(vtkPolyData* table, double length, double force)
         length * deviations->GetComponent(i, deviations->GetNumberOfComponents() == 3 ? c : 0);
     }
     result.displacements.push_back(measured);
+  }
+}
+} // namespace
+
+void setVectorsWithGaps(vtkPolyData* table, const char* name, const Eigen::Matrix3Xd& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(values.cols());
+  std::copy_n(values.data(), values.size(), array->GetPointer(0));
+  table->GetFieldData()->AddArray(array);
+}
+
+void setColumn(vtkPolyData* table, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  table->GetFieldData()->AddArray(array);
+}
+
+Measurements measurementsOf(vtkPolyData* table, double length, double force)
+{
+  Measurements result;
+  result.source = "the table of measurements";
+  result.rowWord = "tuple";
+  readProbes(table, length, force, result);
+  if (result.probes.empty())
+  {
+    refuse("the table of measurements has no probe");
+  }
+  readDisplacements(table, length, result);
+  requireSound(result);
+  return result;
+}
+
+Measurements observationsOf(vtkPolyData* table, double length)
+{
+  Measurements result;
+  result.source = "the table of displacements";
+  result.rowWord = "tuple";
+  result.hasForces = false;
+  readDisplacements(table, length, result);
+  auto* names = vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray(arrays::ProbeNames));
+  std::map<int, int> numbers; // of the probes that there are
+  for (MeasuredDisplacement& measured : result.displacements)
+  {
+    const auto [found, isNew] =
+      numbers.emplace(measured.probe, static_cast<int>(result.probes.size()));
+    if (isNew)
+    {
+      Probe probe;
+      probe.name = names && measured.probe < names->GetNumberOfValues()
+        ? std::string(names->GetValue(measured.probe))
+        : std::to_string(measured.probe);
+      result.probes.push_back(probe);
+    }
+    measured.probe = found->second;
   }
   requireSound(result);
   return result;

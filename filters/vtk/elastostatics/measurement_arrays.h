@@ -20,6 +20,10 @@ namespace palpate::convert
 /// @param length, force  units of the table, m and N.
 Measurements measurementsOf(vtkPolyData* table, double length = 1, double force = 1);
 
+/// The same of what moves under unknown contacts: without arrays of probes but their names, and of one
+/// where MeasurementProbe is missing.
+Measurements observationsOf(vtkPolyData* table, double length = 1);
+
 /// Adds a table, in place of one that is there.
 void setMeasurements(vtkPolyData* table, const Measurements& measurements);
 
@@ -32,6 +36,10 @@ void setIdentification(
 void setNextProbes(
   vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations);
 void setRegistration(vtkPolyData* surface, const Registration& registration);
+
+/// Field vectors, a tuple a column; unlike setFieldVectors' with NaN for what was not measured.
+void setVectorsWithGaps(vtkPolyData* table, const char* name, const Eigen::Matrix3Xd& values);
+void setColumn(vtkPolyData* table, const char* name, const std::vector<double>& values);
 } // namespace palpate::convert
 
 #endif
