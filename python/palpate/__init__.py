@@ -21,17 +21,12 @@ from .contacts import press, solve, stiffness, stiffness_artifacts
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
-from .identification import (
-    displacement_table,
-    identify,
-    identify_field,
-    measurement_table,
-    recover_contacts,
-    simulate_measurements,
-)
+from .identification import identify, identify_field
 from .imports import import_compliance, import_stiffness
 from .loads import foundation, gravity
+from .measurement_tables import displacement_table, measurement_table, simulate_measurements
 from .precomputation import precompute
+from .recovery import recover_contacts
 from .surfaces import on_original, refine, remesh, repair
 from .version import __version__
 

@@ -13,7 +13,7 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_vtk
-from palpate import identification
+from palpate import identification, measurement_tables, recovery
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, points_of, run, sphere
 
@@ -177,9 +177,10 @@ class Package(Folder):
             palpate.identify(held_sphere(), table(), progress=lambda *_: False)
 
     def test_every_example_runs(self):
-        failed, attempted = doctest.testmod(identification)
-        self.assertEqual(failed, 0)
-        self.assertGreater(attempted, 8)
+        for module, fewest in ((identification, 9), (measurement_tables, 8), (recovery, 8)):
+            failed, attempted = doctest.testmod(module)
+            self.assertEqual(failed, 0)
+            self.assertGreaterEqual(attempted, fewest)
 
 
 class Filter(unittest.TestCase):
