@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "mesh/subdivision.h"
 #include "support/data_models.h"
 #include "support/recoveries.h"
 
@@ -163,6 +164,64 @@ TEST(ContactRecovery, ContactsOfABodyThatAFinerMeshIsOf) {
   options.samples = 0;
   expectRecovered(fineSphere(), coarseSphere(), pushesAllOver(8, 0.4, 15), 150, 0.01, options, 0.1,
                   0.05);
+}
+
+TEST(ContactRecovery, DeviationsAreThoseOfRepetitions) {
+  const KnownContact contact = pushOn(onSphere(50, 30), 1.5, 15, 0.4);
+  const Eigen::Matrix3Xd u = displacementUnder(coarseSphere(), {contact});
+  constexpr int sets = 20;
+  double ofForce = 0, ofPlace = 0, noise = 0;
+  for (unsigned seed = 1; seed <= sets; ++seed) {
+    const auto observed =
+        test::observedOn(coarseSphere(), u, coarseSphere().mesh(), 100, 0.01, seed);
+    const ContactRecovery result = test::recoverOn(coarseSphere(), observed);
+    ASSERT_EQ(result.contacts.size(), 1u);
+    const RecoveredContact& found = result.contacts[0];
+    ofForce += (found.force - contact.force).squaredNorm() / found.forceDeviation.squaredNorm();
+    ofPlace += (found.centre - contact.place).squaredNorm() / std::pow(found.centreDeviation, 2);
+    noise += result.noise / (0.01 * observed.displacements.cwiseAbs().maxCoeff());
+  }
+  // Of three and of two numbers; places stay off by what the patches' shape lacks.
+  EXPECT_GT(std::sqrt(ofForce / sets), 0.5);
+  EXPECT_LT(std::sqrt(ofForce / sets), 2);
+  EXPECT_GT(std::sqrt(ofPlace / sets), 0.3);
+  EXPECT_LT(std::sqrt(ofPlace / sets), 4);
+  EXPECT_NEAR(noise / sets, 1, 0.1);
+}
+
+/// The kidney's control mesh, refined so many times.
+TouchedBody kidney(int levels) {
+  const test::DataModel data = test::readDataModel("kidney");
+  auto mesh = data.shape.mesh();
+  Eigen::VectorXi patches = Eigen::VectorXi::Zero(mesh->triangleCount());
+  std::vector<unsigned char> types = data.boundaryTypes;
+  for (int level = 0; level < levels; ++level) {
+    const SubdivisionLevel finer = subdivide(*mesh, patches, Subdivision::Curved);
+    types = refineBoundaryTypes(finer, types);
+    patches = refineSmoothPatches(finer, patches);
+    mesh = std::make_shared<SurfaceMesh>(finer.points, finer.triangles);
+  }
+  return TouchedBody(
+      {mesh, Material(data.youngsModulus, data.poissonRatio), BoundaryConditions(types), patches});
+}
+
+TEST(ContactRecovery, ContactsOfAKidney) {
+  const TouchedBody body = kidney(2);
+  const SurfaceMesh& mesh = body.mesh();
+  RecoveryOptions options;
+  options.samples = 0;
+  const auto isNearSupport = [&](const Eigen::Vector3d& place) {
+    for (int node : body.model.conditions().fixedNodes())
+      if ((mesh.points().col(node) - place).norm() < 3 * mesh.meanEdgeLength()) return true;
+    return false;
+  };
+  std::vector<std::vector<KnownContact>> cases;
+  for (const SurfacePoint& place : test::markersOn(body, 30, 11))
+    if (!isNearSupport(placeOf(mesh, place)))  // where little moves, little is told
+      cases.push_back({{placeOf(mesh, place), -0.3 * mesh.triangleNormals().col(place.triangle),
+                        2 * mesh.meanEdgeLength()}});
+  ASSERT_GE(cases.size(), 5u);
+  expectRecovered(body, body, cases, 100, 0.01, options, 0.05, 0.03);
 }
 
 }  // namespace
