@@ -13,7 +13,7 @@ import numpy as np
 
 import palpate
 from palpate.arrays import as_vtk
-from palpate import identification, measurement_tables, recovery
+from palpate import identification, measurement_tables
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, points_of, run, sphere
 
@@ -177,7 +177,7 @@ class Package(Folder):
             palpate.identify(held_sphere(), table(), progress=lambda *_: False)
 
     def test_every_example_runs(self):
-        for module, fewest in ((identification, 9), (measurement_tables, 8), (recovery, 8)):
+        for module, fewest in ((identification, 9), (measurement_tables, 8)):
             failed, attempted = doctest.testmod(module)
             self.assertEqual(failed, 0)
             self.assertGreaterEqual(attempted, fewest)

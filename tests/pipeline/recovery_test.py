@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Contacts from displacements through filters, files, program and package."""
 
+import doctest
 import functools
 import re
 import tempfile
@@ -11,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import palpate
+from palpate import recovery
 from palpate.arrays import as_vtk
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, points_of, run, sphere
@@ -102,6 +104,12 @@ class Package(Refusals):
         self.refused("displacements must be a file", palpate.recover_contacts, body(), 3)
         far = palpate.displacement_table(u, points=1e3 * points_of(body())[vertices])
         self.refused("times 0.001 it would be on it", palpate.recover_contacts, body(), far)
+
+
+    def test_every_example_runs(self):
+        failed, attempted = doctest.testmod(recovery)
+        self.assertEqual(failed, 0)
+        self.assertGreater(attempted, 8)
 
 
 class Filter(unittest.TestCase):
