@@ -109,7 +109,7 @@ class Package(Refusals):
     def test_every_example_runs(self):
         failed, attempted = doctest.testmod(recovery)
         self.assertEqual(failed, 0)
-        self.assertGreater(attempted, 8)
+        self.assertGreater(attempted, 5)
 
 
 class Filter(unittest.TestCase):
