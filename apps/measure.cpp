@@ -38,11 +38,12 @@ void addOptions(CLI::App& command, Options& o) {
       "measurements", "");
   command.add_option("--probes", o.probes, "How many press")->capture_default_str();
   command.add_option("--markers", o.markers, "How many are seen under each")->capture_default_str();
-  command.add_option("--radius", o.radius,
-                     "Of a probe's tip, m->check(isFinite()); by default two mean edges");
-  command.add_option(
-      "--force", o.force,
-      "N->check(isFinite()); by default so that the largest displacement is 1 % of the diagonal");
+  command.add_option("--radius", o.radius, "Of a probe's tip, m; by default two mean edges")
+      ->check(isFinite());
+  command
+      .add_option("--force", o.force,
+                  "N; by default so that the largest displacement is 1 % of the diagonal")
+      ->check(isFinite());
   command.add_option("--tilt", o.tilt, "Largest angle of forces from the normal, degrees")
       ->check(isFinite())
       ->capture_default_str();
@@ -62,9 +63,10 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("--translation", o.translation, "Of the rig's frame, m")
       ->expected(3)
       ->check(isFinite());
-  command.add_option(
-      "--yield-length", o.yield,
-      "Young's modulus over the stiffness per area of the support, m->check(isFinite()); 0: firm");
+  command
+      .add_option("--yield-length", o.yield,
+                  "Young's modulus over the stiffness per area of the support, m; 0: firm")
+      ->check(isFinite());
   command.add_option("--seed", o.seed, "Of all that is random")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -117,6 +117,8 @@ TEST(StiffnessModes, MakeTheFieldThatTheyAreSaidToMake) {
   for (int k = 1; k < modes.cols(); ++k) EXPECT_LE(gram(k, k), gram(k - 1, k - 1) * (1 + 1e-9));
   EXPECT_LE((gram - Eigen::MatrixXd(gram.diagonal().asDiagonal())).norm(), 1e-9 * gram.norm());
   EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 0, 5); }, "positive, not 0"));
+  EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 0.05, 5); },
+                        "below the size of the tetrahedra, 0.138"));
   EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 1, 0); }, "at least one"));
 }
 

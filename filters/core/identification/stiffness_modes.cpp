@@ -36,6 +36,10 @@ Eigen::MatrixXd stiffnessModes(const Eigen::Matrix3Xd& centres, const Eigen::Vec
                                double length, int count) {
   if (!(length > 0) || !std::isfinite(length))
     refuse("the length over which stiffness varies must be positive, not ", length);
+  const double cell = std::cbrt(volumes.mean());
+  if (length < cell)
+    refuse("the length over which stiffness varies, ", shortly(length),
+           " m, is below the size of the tetrahedra, ", shortly(cell), " m: give more of them");
   if (count < 1) refuse("a field takes at least one mode, not ", count);
   const int cells = static_cast<int>(centres.cols());
   const std::vector<int> landmarks =

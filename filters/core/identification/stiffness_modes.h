@@ -16,7 +16,7 @@ namespace palpate {
 /// @param length   l, m.
 /// @param count    of modes; fewer come back where the field has fewer beyond rounding.
 /// @return #T by #modes.
-/// @throws std::invalid_argument for a length that is not positive, or no modes.
+/// @throws std::invalid_argument for a length that is not positive or below a cell's, or no modes.
 Eigen::MatrixXd stiffnessModes(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& volumes,
                                double length, int count);
 
