@@ -24,6 +24,7 @@ void addIdentify(CLI::App& program);
 void addMeasure(CLI::App& program);
 void addPress(CLI::App& program);
 void addRecover(CLI::App& program);
+void addCorrect(CLI::App& program);
 void addStiffness(CLI::App& program);
 void addArtifacts(CLI::App& program);
 void addAccuracy(CLI::App& program);

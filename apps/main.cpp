@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   });
   for (const auto add :
        {addInfo, addRepair, addRefine, addRemesh, addOriginal, addPrecompute, addImport, addMeasure,
-        addIdentify, addFoundation, addPress, addRecover, addGravity, addStiffness, addArtifacts,
+        addIdentify, addCorrect, addFoundation, addPress, addRecover, addGravity, addStiffness, addArtifacts,
         addAccuracy, addDevices, addTouch, addGrasp})
     add(program);
   catchInterrupts();

@@ -18,6 +18,7 @@ from .PalpateElastostatics import *  # noqa: F401,F403
 from .PalpateIO import *  # noqa: F401,F403
 from .arrays import array, greens_function_nodes, greens_functions
 from .contacts import press, solve, stiffness, stiffness_artifacts
+from .correction import correct
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
@@ -36,6 +37,7 @@ __all__ = [
     "ModelWarning",
     "__version__",
     "array",
+    "correct",
     "displacement_table",
     "example",
     "foundation",

@@ -209,6 +209,8 @@ constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row b
 constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
 constexpr const char* RegistrationDeviation = "RegistrationDeviation"; // 6: about x, y, z (rad), along (m)
 constexpr const char* RegistrationDistance = "RegistrationDistance"; // places from the surface, m
+constexpr const char* PriorHoldOutError = "PriorHoldOutError"; // of vtkComplianceCorrection: its prior's
+constexpr const char* CorrectionSmoothing = "CorrectionSmoothing"; // noise over correction, variances
 constexpr const char* DeterminedUnknowns = "DeterminedUnknowns"; // of a field's: by measurements
 // A tuple a probe that was proposed: its vertex, its force, and the standard deviations that the
 // parameters would have with all up to it.
@@ -250,8 +252,8 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
-  RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, NextProbeVertex, NextProbeForce,
-  NextProbeDeviations };
+  RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, PriorHoldOutError, CorrectionSmoothing,
+  NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of the surface that one was remeshed from.
 constexpr const char* OriginalSurface[] = { OriginalPoints, OriginalTriangles, OriginalPointTriangle,
   OriginalPointWeights, OriginalDistance, OriginalVolumeChange, OriginalFingerprint };

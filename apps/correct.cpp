@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <read_files.h>
+#include <vtkComplianceCorrection.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "finite_check.h"
+#include "terminal.h"
+
+namespace palpate::app {
+namespace {
+
+struct Options {
+  std::string input, output, measurements, lengthUnit = "m", forceUnit = "N";
+  int modes = 0, folds = 5;
+  double smoothing = 0, placeTolerance = 0.02;
+  bool keepsOutliers = false;
+};
+
+void addOptions(CLI::App& command, Options& o) {
+  command.add_option("input", o.input, "The prior: a model of any method")->required();
+  requireWritable(command.add_option("output", o.output, "The model corrected, .vtp")->required(),
+                  "models", ".vtp");
+  command
+      .add_option("--measurements", o.measurements,
+                  "Displacements under known forces: a table (.csv), or a .vtp that carries it")
+      ->required();
+  command
+      .add_option("--length-unit", o.lengthUnit,
+                  "Of the measurements, the model's being m: m, cm, mm, um, in or ft")
+      ->capture_default_str();
+  command.add_option("--force-unit", o.forceUnit, "Of forces: N, mN, kN, MN, lbf or kgf")
+      ->capture_default_str();
+  command
+      .add_option("--modes", o.modes,
+                  "Correct in so many leading modes of the prior's compliance; 0 for all")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command
+      .add_option("--smoothing", o.smoothing,
+                  "Noise over what is corrected, variances; by default as probes left out tell")
+      ->check(isFinite())
+      ->check(CLI::PositiveNumber);
+  command.add_option("--folds", o.folds, "Of the cross-validation by probes")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command.add_flag("--keep-outliers", o.keepsOutliers,
+                   "Believe displacements that contradict the rest, too");
+  command
+      .add_option("--place-tolerance", o.placeTolerance,
+                  "How far a place may be from the surface, over its diagonal")
+      ->check(isFinite())
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.footer(
+      "The table is that of `palpate identify`. The material should be identified first, and what\n"
+      "it does not explain corrected then:\n"
+      "  palpate identify part.vtp prior.vtp --measurements rig.csv\n"
+      "  palpate correct prior.vtp part_model.vtp --measurements rig.csv");
+}
+
+void print(vtkPolyData* model) {
+  for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
+    printRow("made by", source);
+  printRow("factor on the prior's compliance",
+           number(model->GetFieldData()->GetArray("IdentifiedParameters")->GetComponent(0, 0)));
+  printRow("residuals", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m (rms)");
+  vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
+  int count = 0;
+  for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
+    count += outliers->GetComponent(i, 0) != 0;
+  printRow("outliers",
+           std::to_string(count) + " of " + std::to_string(outliers->GetNumberOfTuples()));
+  printRow("smoothing", number(fieldNumber(model, "CorrectionSmoothing", -1), 3));
+  const double error = fieldNumber(model, "HoldOutError", -1),
+               prior = fieldNumber(model, "PriorHoldOutError", -1);
+  if (error >= 0)
+    printRow("error at probes left out",
+             percent(error) + ", by the prior " + percent(prior) + ", noise and all");
+}
+
+}  // namespace
+
+void addCorrect(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "correct", "Correct a model's Green's functions by measured displacements");
+  addOptions(*command, *options);
+  command->callback([options] {
+    vtkNew<vtkComplianceCorrection> filter;
+    filter->SetInputData(readSurface(options->input));
+    if (std::filesystem::path(options->measurements).extension() == ".vtp")
+      filter->SetInputData(1, readSurface(options->measurements));
+    else
+      filter->SetMeasurementFileName(options->measurements.c_str());
+    filter->SetLengthUnit(options->lengthUnit.c_str());
+    filter->SetForceUnit(options->forceUnit.c_str());
+    filter->SetNumberOfModes(options->modes);
+    filter->SetSmoothing(options->smoothing);
+    filter->SetNumberOfFolds(options->folds);
+    filter->SetLeaveOutOutliers(!options->keepsOutliers);
+    filter->SetPlaceTolerance(options->placeTolerance);
+    const auto model = run(filter);
+    writeSurface(model, options->output);
+    print(model);
+    printWarnings(model);
+  });
+}
+
+}  // namespace palpate::app

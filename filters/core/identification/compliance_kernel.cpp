@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/compliance_kernel.h"
+
+#include <cmath>
+#include <utility>
+
+namespace palpate {
+namespace {
+
+constexpr int kMostSteps = 200;
+
+}  // namespace
+
+MeasuredComponents::MeasuredComponents(const MeasuredSetup& setup, const Measurements& measurements,
+                                       const std::vector<int>& free, int vertices)
+    : setup_(setup), number_(vertices, -1), freeCount_(free.size()) {
+  for (std::size_t i = 0; i < free.size(); ++i) number_[free[i]] = static_cast<int>(i);
+  const Eigen::Index count = 3 * measurements.displacements.size();
+  measured.setZero(count);
+  weights.setZero(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const MeasuredDisplacement& here = measurements.displacements[i / 3];
+    if (std::isnan(here.displacement[i % 3])) continue;
+    measured[i] = here.displacement[i % 3];
+    weights[i] = measurements.hasDeviations() ? 1 / here.deviation[i % 3] : 1;
+  }
+  if (count > 0 && weights.maxCoeff() > 0) weights /= weights.maxCoeff();
+}
+
+template <class Act>
+void MeasuredComponents::forCorners(const Act& act) const {
+  for (int i = 0; i < setup_.markerCount(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const int corner = number_[setup_.nodes[i][k]]; corner >= 0)
+        act(i, corner, setup_.weights[i][k]);
+}
+
+Eigen::VectorXd MeasuredComponents::seen(const Eigen::MatrixXd& displacements) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(measured.size());
+  forCorners([&](int i, int corner, double weight) {
+    result.segment<3>(3 * i) +=
+        weight * displacements.col(setup_.probeOf[i]).segment<3>(3 * corner);
+  });
+  return result;
+}
+
+Eigen::MatrixXd MeasuredComponents::spread(const Eigen::VectorXd& values) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * freeCount_, setup_.probeCount());
+  forCorners([&](int i, int corner, double weight) {
+    result.col(setup_.probeOf[i]).segment<3>(3 * corner) += weight * values.segment<3>(3 * i);
+  });
+  return result;
+}
+
+ComplianceKernel::ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads,
+                                   const MeasuredComponents& table, const Progress& progress)
+    : kernel_(std::move(kernel)),
+      table_(table),
+      progress_(progress),
+      loaded_(kernel_ * loads),
+      work_(loads.transpose() * loaded_),
+      unit_(kernel_.diagonal().mean() * work_.diagonal().mean() / 2) {}
+
+Eigen::VectorXd ComplianceKernel::seen(const Eigen::VectorXd& pulls) const {
+  const Eigen::MatrixXd places = table_.spread(pulls);
+  return table_.seen((kernel_ * places * work_ + loaded_ * (places.transpose() * loaded_)) / 2);
+}
+
+Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
+                                        const Eigen::VectorXd& weights, double smoothing,
+                                        double tolerance) const {
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return weights.cwiseProduct(seen(weights.cwiseProduct(x))) + smoothing * unit_ * x;
+  };
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(residuals.size()),
+                  left = weights.cwiseProduct(residuals), along = left;
+  const double enough = tolerance * left.norm();
+  for (int step = 0; step < kMostSteps && left.norm() > enough; ++step) {
+    progress_.report(0.5, "correct");
+    const Eigen::VectorXd image = times(along);
+    const double before = left.squaredNorm(), length = before / along.dot(image);
+    x += length * along;
+    left -= length * image;
+    along = left + left.squaredNorm() / before * along;
+  }
+  return weights.cwiseProduct(x);
+}
+
+Eigen::MatrixXd ComplianceKernel::matrix(const Eigen::VectorXd& pulls) const {
+  const Eigen::MatrixXd half = kernel_ * table_.spread(pulls) * loaded_.transpose() / 2;
+  return half + half.transpose();
+}
+
+}  // namespace palpate

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "identification/compliance_correction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
+#include "support/refusals.h"
+#include "support/rigs.h"
+#include "support/solids.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr double kYoung = 2e4, kPoisson = 0.3;
+
+bool base(const Eigen::Vector3d& x) {
+  return x.z() < 1e-9;
+}
+
+/// A cube with a ball inside whose modulus is another by a factor.
+SolidProblem cube(int divisions, double factor) {
+  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh();
+  std::vector<int> materials;
+  for (const auto& cell : mesh.tetrahedra().colwise())
+    materials.push_back(
+        (mesh.points()(Eigen::all, cell).rowwise().mean() - Eigen::Vector3d(0.5, 0.5, 0.6)).norm() <
+        0.37);
+  const ElasticModel model = makeModel(boundaryOf(mesh), base, 1, kPoisson);
+  return SolidProblem{model, SolidBody(model.mesh(), mesh,
+                                       {Elasticity(Material(kYoung, kPoisson)),
+                                        Elasticity(Material(kYoung * factor, kPoisson))},
+                                       materials)};
+}
+
+struct Prior {
+  SolidProblem problem;
+  std::shared_ptr<const GreensFunctions> greens;
+
+  explicit Prior(int divisions) : problem(cube(divisions, 1)), greens(problem.greens()) {}
+
+  CorrectedGreensFunctions corrected(const Measurements& m,
+                                     const CorrectionOptions& options = {}) const {
+    const RigSetup rig = setupOn(problem.model, m);
+    return correctCompliance(*greens, problem.model, rig.setup, m, options);
+  }
+  /// Relative error of the displacements that Green's functions predict.
+  double errorOf(const GreensFunctions& of, const Measurements& m) const {
+    const RigSetup rig = setupOn(problem.model, m);
+    const MeasuredResponse response(of, rig.setup, false);
+    double error = 0, size = 0;
+    for (int i = 0; i < rig.setup.markerCount(); ++i) {
+      const Eigen::Vector3d predicted =
+          response.rows().middleRows<3>(3 * i) * m.probes[m.displacements[i].probe].force;
+      error += (predicted - m.displacements[i].displacement).squaredNorm();
+      size += m.displacements[i].displacement.squaredNorm();
+    }
+    return std::sqrt(error / size);
+  }
+};
+
+RigSettings rigOf(int probes, double noise, unsigned seed = 1) {
+  RigSettings rig;
+  rig.radius = 0.3;
+  rig.probes = probes;
+  rig.noise = noise;
+  rig.seed = seed;
+  return rig;
+}
+
+Eigen::MatrixXd complianceOf(const GreensFunctions& greens) {
+  const std::vector<int> free = greens.info().conditions.freeNodes();
+  Eigen::MatrixXd result(3 * free.size(), 3 * free.size());
+  greens.gather(nodeList(free), nodeList(free), result.data());
+  for (std::size_t j = 0; j < free.size(); ++j)
+    result.middleCols<3>(3 * j) /= greens.vertexArea(free[j]);
+  return result;
+}
+
+/// A third of the free vertices are probed, each at 50 places of another mesh with 1 % noise.
+class HiddenBall : public ::testing::TestWithParam<double> {};
+
+TEST_P(HiddenBall, ProbesLeftOutArePredicted) {
+  const SolidProblem truth = cube(6, GetParam());
+  const auto greens = truth.greens();
+  const Prior prior(5);
+  const Measurements held = measuredOn(greens, truth.model.mesh(), rigOf(20, 0, 77));
+  const int third = static_cast<int>(prior.problem.model.conditions().freeNodes().size()) / 3;
+  CorrectedGreensFunctions found =
+      prior.corrected(measuredOn(greens, truth.model.mesh(), rigOf(third, 0.01)));
+  EXPECT_EQ(found.share, 1);
+  EXPECT_LT(found.fit.holdOutError, found.priorHoldOutError);
+  EXPECT_LT(found.fit.outliers.size(), 0.01 * 50 * third);
+  const auto corrected = found.greens.take();
+  EXPECT_GT(prior.errorOf(*prior.greens, held), 0.2);
+  EXPECT_LE(prior.errorOf(*corrected, held), 0.06);
+  // Reciprocal and positive definite.
+  const Eigen::MatrixXd compliance = complianceOf(*corrected);
+  EXPECT_LE((compliance - compliance.transpose()).norm(), 1e-12 * compliance.norm());
+  EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(compliance).info(), Eigen::Success);
+  // Reactions bear the forces.
+  const std::vector<int> fixed = corrected->info().conditions.fixedNodes();
+  const int node = corrected->info().conditions.freeNodes().back();
+  Eigen::MatrixXd reactions(3 * fixed.size(), 3);
+  corrected->gather(nodeList(fixed), nodeList({node}), reactions.data());
+  Eigen::Matrix3d sum = corrected->vertexArea(node) * Eigen::Matrix3d::Identity();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    sum += corrected->vertexArea(fixed[i]) * reactions.middleRows<3>(3 * i);
+  EXPECT_LE(sum.norm(), 1e-9 * corrected->vertexArea(node));
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, HiddenBall, ::testing::Values(0.1, 10));
+
+// Exact data of a body like the prior but for its modulus: a factor, and nothing to correct.
+TEST(ComplianceCorrection, AFactorIsFound) {
+  const Prior prior(4);
+  const auto softer =
+      prior.greens->withYoungsModulus(prior.greens->info().material.youngsModulus() / 3);
+  const Measurements m = measuredOn(softer, prior.problem.model.mesh(), rigOf(6, 0));
+  CorrectedGreensFunctions found = prior.corrected(m);
+  EXPECT_NEAR(found.fit.parameters[0].value, 3, 1e-9);
+  EXPECT_LE(prior.errorOf(*found.greens.take(), m), 1e-9);
+}
+
+// In few modes the correction is one of the prior's leading modes alone.
+TEST(ComplianceCorrection, FewModesSpanTheCorrection) {
+  const SolidProblem truth = cube(5, 0.1);
+  const Prior prior(4);
+  CorrectionOptions options;
+  options.modes = 7;
+  CorrectedGreensFunctions found =
+      prior.corrected(measuredOn(truth.greens(), truth.model.mesh(), rigOf(10, 0.01)), options);
+  const Eigen::MatrixXd change = complianceOf(*found.greens.take()) -
+                                 found.fit.parameters[0].value * complianceOf(*prior.greens);
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(change).singularValues();
+  EXPECT_GT(values[6], 1e-6 * values[0]);
+  EXPECT_LE(values[7], 1e-9 * values[0]);
+}
+
+TEST(ComplianceCorrection, WhatCannotBeIsRefused) {
+  const Prior prior(3);
+  const Measurements sound = measuredOn(prior.greens, prior.problem.model.mesh(), rigOf(2, 0.01));
+  const auto refused = [&](const auto& change, const char* words) {
+    CorrectionOptions options;
+    Measurements m = sound;
+    change(options, m);
+    return isRefused([&] { prior.corrected(m, options); }, words);
+  };
+  EXPECT_TRUE(refused([](auto& o, auto&) { o.modes = 1000; }, "modes, not 1000"));
+  EXPECT_TRUE(refused([](auto& o, auto&) { o.smoothing = -1; }, "must be positive"));
+  EXPECT_TRUE(refused([](auto& o, auto&) { o.folds = 0; }, "a smoothing must be given"));
+  EXPECT_TRUE(refused([](auto&, auto& m) { m.displacements.resize(1); }, "at least two"));
+  EXPECT_TRUE(refused(
+      [](auto&, auto& m) {
+        for (auto& d : m.displacements) d.displacement = -d.displacement;
+      },
+      "against the forces"));
+}
+
+}  // namespace
+}  // namespace palpate::test
