@@ -9,21 +9,22 @@
 #include <vtkPolyData.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "commands.h"
 #include "finite_check.h"
+#include "measurement_options.h"
 #include "terminal.h"
 
 namespace palpate::app {
 namespace {
 
 struct Options {
-  std::string input, output, measurements, lengthUnit = "m", forceUnit = "N";
+  std::string input, output;
+  MeasurementOptions measurements;
   int modes = 0, folds = 5;
-  double smoothing = 0, placeTolerance = 0.02;
+  double smoothing = 0;
   bool keepsOutliers = false;
 };
 
@@ -31,16 +32,7 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("input", o.input, "The prior: a model of any method")->required();
   requireWritable(command.add_option("output", o.output, "The model corrected, .vtp")->required(),
                   "models", ".vtp");
-  command
-      .add_option("--measurements", o.measurements,
-                  "Displacements under known forces: a table (.csv), or a .vtp that carries it")
-      ->required();
-  command
-      .add_option("--length-unit", o.lengthUnit,
-                  "Of the measurements, the model's being m: m, cm, mm, um, in or ft")
-      ->capture_default_str();
-  command.add_option("--force-unit", o.forceUnit, "Of forces: N, mN, kN, MN, lbf or kgf")
-      ->capture_default_str();
+  o.measurements.addTo(command);
   command
       .add_option("--modes", o.modes,
                   "Correct in so many leading modes of the prior's compliance; 0 for all")
@@ -56,12 +48,6 @@ void addOptions(CLI::App& command, Options& o) {
       ->capture_default_str();
   command.add_flag("--keep-outliers", o.keepsOutliers,
                    "Believe displacements that contradict the rest, too");
-  command
-      .add_option("--place-tolerance", o.placeTolerance,
-                  "How far a place may be from the surface, over its diagonal")
-      ->check(isFinite())
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
   command.footer(
       "The table is that of `palpate identify`. The material should be identified first, and what\n"
       "it does not explain corrected then:\n"
@@ -99,17 +85,11 @@ void addCorrect(CLI::App& program) {
   command->callback([options] {
     vtkNew<vtkComplianceCorrection> filter;
     filter->SetInputData(readSurface(options->input));
-    if (std::filesystem::path(options->measurements).extension() == ".vtp")
-      filter->SetInputData(1, readSurface(options->measurements));
-    else
-      filter->SetMeasurementFileName(options->measurements.c_str());
-    filter->SetLengthUnit(options->lengthUnit.c_str());
-    filter->SetForceUnit(options->forceUnit.c_str());
+    options->measurements.applyTo(filter.Get(), 1);
     filter->SetNumberOfModes(options->modes);
     filter->SetSmoothing(options->smoothing);
     filter->SetNumberOfFolds(options->folds);
     filter->SetLeaveOutOutliers(!options->keepsOutliers);
-    filter->SetPlaceTolerance(options->placeTolerance);
     const auto model = run(filter);
     writeSurface(model, options->output);
     print(model);

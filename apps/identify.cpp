@@ -22,6 +22,7 @@
 
 #include "commands.h"
 #include "finite_check.h"
+#include "measurement_options.h"
 #include "support_options.h"
 #include "terminal.h"
 #include "whole_file.h"
@@ -32,10 +33,10 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
-  std::string input, output, measurements, method = "bem", loss = "cauchy";
-  std::string lengthUnit = "m", forceUnit = "N", field;
+  std::string input, output, method = "bem", loss = "cauchy", field;
+  MeasurementOptions measurements;
   SupportOptions support;
-  double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4, placeTolerance = 0.02;
+  double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4;
   std::vector<double> poissonRange;
   bool yieldingSupport = false, isRegistered = false, noEstimate = false;
   double fieldLength = 0, fieldDeviation = 1;
@@ -109,16 +110,7 @@ void addOptions(CLI::App& command, Options& o) {
           .add_option("output", o.output, "The model: the surface with its Green's functions, .vtp")
           ->required(),
       "models", ".vtp");
-  command
-      .add_option("--measurements", o.measurements,
-                  "Displacements under known forces: a table (.csv), or a .vtp that carries it")
-      ->required();
-  command
-      .add_option("--length-unit", o.lengthUnit,
-                  "Of the measurements, the surface's being m: m, cm, mm, um, in or ft")
-      ->capture_default_str();
-  command.add_option("--force-unit", o.forceUnit, "Of forces: N, mN, kN, MN, lbf or kgf")
-      ->capture_default_str();
+  o.measurements.addTo(command);
   addUnknowns(command, o);
   addField(command, o);
   o.support.addPlacesTo(command);
@@ -141,12 +133,6 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(CLI::Range(1e-9, 0.1))
       ->capture_default_str();
   command
-      .add_option("--place-tolerance", o.placeTolerance,
-                  "How far a place may be from the surface, over its diagonal")
-      ->check(isFinite())
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command
       .add_option("--next-probes", o.nextProbes,
                   "Propose so many further probes that would tell most")
       ->check(CLI::Range(0, 100));
@@ -164,10 +150,6 @@ void addOptions(CLI::App& command, Options& o) {
 bool isVolumeFile(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   return extension == ".vtu" || extension == ".vtk";
-}
-
-bool isPolydata(const Options& o) {
-  return std::filesystem::path(o.measurements).extension() == ".vtp";
 }
 
 /// Sets the surface with its support, and what fills it if the input does.
@@ -188,16 +170,11 @@ void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
     conditions->SetInputData(readSurface(o.input));
   }
   filter->SetInputData(run(conditions));
-  if (isPolydata(o))
-    filter->SetInputData(2, readSurface(o.measurements));
-  else
-    filter->SetMeasurementFileName(o.measurements.c_str());
+  o.measurements.applyTo(filter, 2);
 }
 
 void set(vtkGreensFunctionIdentification* filter, const Options& o) {
   filter->SetMethod(o.method == "fem");
-  filter->SetLengthUnit(o.lengthUnit.c_str());
-  filter->SetForceUnit(o.forceUnit.c_str());
   filter->SetPoissonRatio(o.poisson);
   if (!o.poissonRange.empty()) filter->SetPoissonRange(o.poissonRange[0], o.poissonRange[1]);
   filter->SetLargestRatio(o.largestRatio);
@@ -207,7 +184,6 @@ void set(vtkGreensFunctionIdentification* filter, const Options& o) {
   filter->SetNumberOfFolds(o.folds);
   filter->SetNumberOfNextProbes(o.nextProbes);
   filter->SetInterpolationTolerance(o.tolerance);
-  filter->SetPlaceTolerance(o.placeTolerance);
   filter->SetEstimateError(!o.noEstimate);
   filter->SetNumberOfThreads(o.threads);
 }
@@ -345,7 +321,7 @@ void addIdentify(CLI::App& program) {
     auto* const field = vtkUnstructuredGrid::SafeDownCast(ofField->GetOutputDataObject(1));
     if (isField) writeField(field, options->field);
     writeSurface(model, options->output);
-    printModel(model, isPolydata(*options) ? "tuples" : "lines");
+    printModel(model, isPolydata(options->measurements.table) ? "tuples" : "lines");
     if (isField) printField(model, field);
     printWarnings(model);
   });

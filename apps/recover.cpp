@@ -10,11 +10,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "finite_check.h"
+#include "measurement_options.h"
 #include "picture/picture.h"
 #include "terminal.h"
 
@@ -22,8 +22,9 @@ namespace palpate::app {
 namespace {
 
 struct Options {
-  std::string input, table, output, lengthUnit = "m", probe;
-  double friction = 0.5, noise = 0, radius = -1, placeTolerance = 0.02;
+  std::string input, table, output, probe;
+  TableOptions reading;
+  double friction = 0.5, noise = 0, radius = -1;
   int samples = 50, seed = 1;
   bool firmSupport = false;
   PictureOptions picture;
@@ -42,10 +43,7 @@ void addOptions(CLI::App& command, Options& o) {
                                   "displacements, pressures, contacts, .vtp")
                       ->required(),
                   "models", ".vtp");
-  command
-      .add_option("--length-unit", o.lengthUnit,
-                  "Of the table, the surface's being m: m, cm, mm, um, in or ft")
-      ->capture_default_str();
+  o.reading.addTo(command);
   command.add_option("--probe", o.probe, "Whose displacements, where the table has several");
   command.add_option("--friction", o.friction, "Largest tangential over normal force; 0 for none")
       ->check(isFinite())
@@ -70,12 +68,6 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command.add_option("--seed", o.seed, "Of these")->capture_default_str();
-  command
-      .add_option("--place-tolerance", o.placeTolerance,
-                  "How far a place may be from the surface, over its diagonal")
-      ->check(isFinite())
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
   o.picture.addTo(command, "how the surface moves and the pressures on it");
   command.footer(
       "A table has a line of names, then a line for each displacement: vertex (or x, y, z, at "
@@ -163,11 +155,11 @@ void addRecover(CLI::App& program) {
     options->picture.requireSensible();
     vtkNew<vtkContactRecovery> filter;
     filter->SetInputData(readSurface(options->input));
-    if (std::filesystem::path(options->table).extension() == ".vtp")
+    if (isPolydata(options->table))
       filter->SetInputData(1, readSurface(options->table));
     else
       filter->SetDisplacementFileName(options->table.c_str());
-    filter->SetLengthUnit(options->lengthUnit.c_str());
+    filter->SetLengthUnit(options->reading.lengthUnit.c_str());
     filter->SetProbeName(options->probe.c_str());
     filter->SetFriction(options->friction);
     filter->SetNoise(options->noise);
@@ -175,7 +167,7 @@ void addRecover(CLI::App& program) {
     filter->SetYieldingSupport(!options->firmSupport);
     filter->SetNumberOfSamples(options->samples);
     filter->SetSeed(options->seed);
-    filter->SetPlaceTolerance(options->placeTolerance);
+    filter->SetPlaceTolerance(options->reading.placeTolerance);
     const auto model = run(filter);
     writeSurface(model, options->output);
     if (!options->picture.path.empty()) draw(model, options->picture);

@@ -97,6 +97,13 @@ def positive(value, what):
     return given
 
 
+def unit_name(value):
+    """A unit, which the filters then look up."""
+    if not isinstance(value, str):
+        raise Error(f"a unit must be a string, not {type(value).__name__}")
+    return value
+
+
 def whole_number(value, what, most):
     """An integer from 0 to `most`, however it is written."""
     given = number(value, what)

@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Green's functions corrected by measurements."""
 
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-
-from .arguments import flag, number, surface_of, whole_number
-from .errors import Error
-from .files import path_of
-from .imports import is_path
-from .measurement_tables import MOST
+from .arguments import flag, number, positive, surface_of, whole_number
+from .measurement_tables import MOST, set_measurements
 from .PalpateElastostatics import vtkComplianceCorrection
 from .precomputation import computed
 
@@ -70,23 +65,10 @@ def correct(model, measurements, *, modes=0, smoothing=None, folds=5, keep_outli
     """
     filter = vtkComplianceCorrection()
     filter.SetInputData(surface_of(model))
-    if is_path(measurements):
-        filter.SetMeasurementFileName(path_of(measurements))
-    elif isinstance(measurements, vtkPolyData):
-        filter.SetInputData(1, measurements)
-    else:
-        raise Error("measurements must be a file or a vtkPolyData that carries their table, not "
-                    f"{type(measurements).__name__}")
-    for unit, set_unit in ((length_unit, filter.SetLengthUnit), (force_unit, filter.SetForceUnit)):
-        if not isinstance(unit, str):
-            raise Error(f"a unit must be a string, not {type(unit).__name__}")
-        set_unit(unit)
+    set_measurements(filter, 1, measurements, length_unit, force_unit)
     filter.SetNumberOfModes(whole_number(modes, "modes", MOST))
     if smoothing is not None:
-        smoothing = number(smoothing, "smoothing")
-        if not smoothing > 0:
-            raise Error(f"smoothing must be positive, not {smoothing:g}")
-        filter.SetSmoothing(smoothing)
+        filter.SetSmoothing(positive(smoothing, "smoothing"))
     filter.SetNumberOfFolds(whole_number(folds, "folds", 1000))
     filter.SetLeaveOutOutliers(not flag(keep_outliers, "keep_outliers"))
     filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))

@@ -17,6 +17,10 @@ from .errors import Error, deferred_interrupts, silenced
 from .PalpateIO import vtkElasticSurfaceReader, vtkElasticSurfaceWriter, vtkElasticVolumeReader
 
 
+def is_path(value):
+    return isinstance(value, (str, bytes, os.PathLike))
+
+
 def path_of(value):
     """A path as the filters take it."""
     try:

@@ -3,12 +3,11 @@
 """Materials, and with them Green's functions, from measurements."""
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
-from .arguments import choice, flag, number, numbers, whole_number
+from .arguments import choice, flag, number, numbers, positive, whole_number
 from .errors import Error
-from .files import path_of
-from .imports import is_path
+from .measurement_tables import set_measurements
 from .PalpateElastostatics import vtkGreensFunctionIdentification, vtkStiffnessFieldIdentification
 from .precomputation import boundary_of, computed, posed
 
@@ -173,10 +172,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
         raise Error("a field takes at least one mode, not 0")
     filter.SetNumberOfModes(modes)
     if length is not None:
-        length = number(length, "length")
-        if not length > 0:
-            raise Error(f"length must be positive, not {length:g}")
-        filter.SetFieldLength(length)
+        filter.SetFieldLength(positive(length, "length"))
     filter.SetFieldDeviation(number(deviation, "deviation"))
     filter.SetInputData(posed(surface, 1.0, 0.3, fixed))
     model = computed(filter, progress)
@@ -193,17 +189,7 @@ def set_inputs(filter, surface, volume, measurements, length_unit, force_unit):
         if not isinstance(volume, vtkUnstructuredGrid):
             raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")
         filter.SetInputData(1, volume)
-    if is_path(measurements):
-        filter.SetMeasurementFileName(path_of(measurements))
-    elif isinstance(measurements, vtkPolyData):
-        filter.SetInputData(2, measurements)
-    else:
-        raise Error("measurements must be a file or a vtkPolyData that carries their table, not "
-                    f"{type(measurements).__name__}")
-    for unit, set_unit in ((length_unit, filter.SetLengthUnit), (force_unit, filter.SetForceUnit)):
-        if not isinstance(unit, str):
-            raise Error(f"a unit must be a string, not {type(unit).__name__}")
-        set_unit(unit)
+    set_measurements(filter, 2, measurements, length_unit, force_unit)
     return surface
 
 

@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Green's functions from matrices made elsewhere."""
 
-import os
-
-from .arguments import choice, flag, number, numbers, positive, surface_of, vertex_list
+from .arguments import choice, flag, number, numbers, positive, surface_of, unit_name, vertex_list
 from .arrays import as_ids, as_vtk
 from .errors import Error
-from .files import path_of
+from .files import is_path, path_of
 from .PalpateElastostatics import vtkImportedGreensFunctions
 from .precomputation import computed, posed
 
@@ -176,10 +174,8 @@ def imported(kind, surface, matrix, nodes, *, fixed, order, length_unit, force_u
         if not isinstance(name, str):
             raise Error(f"the name of a matrix must be a string, not {type(name).__name__}")
         filter.SetMatrixName(name)
-    for unit, set_unit in ((length_unit, filter.SetLengthUnit), (force_unit, filter.SetForceUnit)):
-        if not isinstance(unit, str):
-            raise Error(f"a unit must be a string, not {type(unit).__name__}")
-        set_unit(unit)
+    filter.SetLengthUnit(unit_name(length_unit))
+    filter.SetForceUnit(unit_name(force_unit))
     filter.SetDofOrder(choice(order, ORDERS, "order"))
     filter.SetNodeTolerance(number(node_tolerance, "node_tolerance"))
     filter.SetReciprocal(flag(reciprocal, "reciprocal"))
@@ -190,10 +186,6 @@ def imported(kind, surface, matrix, nodes, *, fixed, order, length_unit, force_u
         filter.SetColumnNodes(as_ids(columns, "columns"))
     filter.SetInputData(posed(surface, 1.0, 0.0, fixed))
     return computed(filter, progress, stacklevel=4)
-
-
-def is_path(value):
-    return isinstance(value, (str, bytes, os.PathLike))
 
 
 def give(set_file_name, set_array, value, what):

@@ -5,9 +5,11 @@
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .arguments import flag, number, numbers, progress_callback, surface_of, vector, whole_number
+from .arguments import (flag, number, numbers, progress_callback, surface_of, unit_name, vector,
+                        whole_number)
 from .arrays import as_vtk
 from .errors import Error, run
+from .files import is_path, path_of
 from .PalpateElastostatics import vtkRigSimulation
 
 MOST = 2**31 - 1
@@ -180,6 +182,23 @@ def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=Non
     rig.SetSupportYieldLength(number(yield_length, "yield_length"))
     rig.SetSeed(whole_number(seed, "seed", MOST))
     return run(rig, progress_callback(None))
+
+
+def set_measurements(filter, port, measurements, length_unit, force_unit):
+    """A table, from a file or as an input, and its units."""
+    set_table(filter, port, measurements, filter.SetMeasurementFileName, "measurements")
+    filter.SetLengthUnit(unit_name(length_unit))
+    filter.SetForceUnit(unit_name(force_unit))
+
+
+def set_table(filter, port, table, set_file_name, what):
+    if is_path(table):
+        set_file_name(path_of(table))
+    elif isinstance(table, vtkPolyData):
+        filter.SetInputData(port, table)
+    else:
+        raise Error(f"{what} must be a file or a vtkPolyData that carries their table, not "
+                    f"{type(table).__name__}")
 
 
 def add_tuples(table, name, values, shape, what):

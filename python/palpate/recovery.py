@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Contacts from displacements."""
 
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-
-from .arguments import flag, number, progress_callback, surface_of, whole_number
+from .arguments import flag, number, progress_callback, surface_of, unit_name, whole_number
 from .errors import Error, run
-from .files import path_of
-from .imports import is_path
-from .measurement_tables import MOST
+from .measurement_tables import MOST, set_table
 from .PalpateElastostatics import vtkContactRecovery
 
 __all__ = ["recover_contacts"]
@@ -78,16 +74,8 @@ def recover_contacts(model, displacements, *, probe=None, friction=0.5, noise=No
     """
     filter = vtkContactRecovery()
     filter.SetInputData(surface_of(model))
-    if is_path(displacements):
-        filter.SetDisplacementFileName(path_of(displacements))
-    elif isinstance(displacements, vtkPolyData):
-        filter.SetInputData(1, displacements)
-    else:
-        raise Error("displacements must be a file or a vtkPolyData that carries their table, not "
-                    f"{type(displacements).__name__}")
-    if not isinstance(length_unit, str):
-        raise Error(f"a unit must be a string, not {type(length_unit).__name__}")
-    filter.SetLengthUnit(length_unit)
+    set_table(filter, 1, displacements, filter.SetDisplacementFileName, "displacements")
+    filter.SetLengthUnit(unit_name(length_unit))
     if probe is not None:
         filter.SetProbeName(str(probe))
     filter.SetFriction(number(friction, "friction"))

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "linear_algebra/sparse_factorization.h"
 #include "support/refusals.h"
 #include "support/solids.h"
 
@@ -46,7 +45,6 @@ struct Cube {
 class Moduli : public ::testing::TestWithParam<double> {};
 
 TEST_P(Moduli, DisplaceAsTheGreensFunctionsOfTheSameBody) {
-  if (!SparseFactorization::isAvailable()) GTEST_SKIP() << "no MUMPS";
   const Cube cube;
   const ModulusResponse response(cube.model, cube.mesh, cube.modes, cube.forces);
   const auto answer = response.at(cube.modulus, GetParam(), false);
@@ -64,7 +62,6 @@ TEST_P(Moduli, DisplaceAsTheGreensFunctionsOfTheSameBody) {
 }
 
 TEST_P(Moduli, DerivativesAreThoseOfDifferences) {
-  if (!SparseFactorization::isAvailable()) GTEST_SKIP() << "no MUMPS";
   constexpr double kStep = 1e-4;
   const Cube cube;
   const ModulusResponse response(cube.model, cube.mesh, cube.modes, cube.forces);

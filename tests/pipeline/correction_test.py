@@ -64,12 +64,12 @@ class Correction(Refusals):
 
     def test_refuses_what_cannot_be(self):
         self.refused("no Green's functions", palpate.correct, held_sphere(), table())
-        self.refused("smoothing must be positive", palpate.correct, body(), table(), smoothing=0)
+        self.refused("smoothing must be above 0", palpate.correct, body(), table(), smoothing=0)
         self.refused("modes, not 100000", palpate.correct, body(), table(), modes=100000)
         self.refused("not list", palpate.correct, body(), [1])
         filter = palpate.vtkComplianceCorrection()
         filter.SetInputData(body())
-        self.assertIn("from a file or from the second input", failure_of(filter))
+        self.assertIn("from a file or from the input of their table", failure_of(filter))
         with self.assertRaises(palpate.Aborted):
             palpate.correct(body(), table(), progress=lambda *_: False)
 

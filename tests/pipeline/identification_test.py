@@ -187,7 +187,7 @@ class Filter(unittest.TestCase):
     def test_needs_one_table(self):
         filter = palpate.vtkGreensFunctionIdentification()
         filter.SetInputData(body())
-        self.assertIn("from a file or from the third input", failure_of(filter))
+        self.assertIn("from a file or from the input of their table", failure_of(filter))
         filter.SetInputData(2, table())
         filter.SetPatchColumns(True)
         self.assertIn("leave columns and patch columns out", failure_of(filter))

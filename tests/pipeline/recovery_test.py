@@ -116,7 +116,7 @@ class Filter(unittest.TestCase):
     def test_needs_one_table(self):
         filter = palpate.vtkContactRecovery()
         filter.SetInputData(body())
-        self.assertIn("from a file or from the second input", failure_of(filter))
+        self.assertIn("from a file or from the input of their table", failure_of(filter))
 
     def test_needs_a_model(self):
         filter = palpate.vtkContactRecovery()

@@ -106,7 +106,7 @@ class Field(Refusals):
                          **{"poisson": POISSON, **settings})
 
         refused("at least one mode", modes=0)
-        refused("length must be positive", length=0)
+        refused("length must be above 0", length=0)
         refused("deviation of ln E", deviation=0)
         refused("without volume", volume="body")
 

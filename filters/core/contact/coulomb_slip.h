@@ -23,8 +23,7 @@ struct CoulombSlip {
 
 /// The return mapping of a point that slides on its tangent plane: the displacement d after which
 /// the force f(d) = K (u - d) is on the friction cone and across along the slip, f_t(d) = s d with
-/// s
-/// >= 0 (maximum dissipation): d = (K_tt + s)^-1 f_t, where s > 0 solves s |d| = mu f_n(d). There
+/// s >= 0 (maximum dissipation): d = (K_tt + s)^-1 f_t, where s > 0 solves s |d| = mu f_n(d). There
 /// is one if the probe is below the tangent plane; without friction s = 0. Neither allocates nor
 /// throws.
 ///

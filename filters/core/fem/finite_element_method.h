@@ -58,10 +58,9 @@ struct FiniteElementOptions {
 /// complement of a multifrontal factorisation.
 /// @param model  its surface is that of the body; its material serves as unit of what is reported.
 /// @throws std::invalid_argument for columns out of range, another domain, linear elements of
-/// nearly
-///         incompressible materials, or components held of an unsupported body or of all three of a
-///         free vertex; Aborted; std::bad_alloc; std::runtime_error if the
-///         system is singular or the library was built without MUMPS.
+///         nearly incompressible materials, or components held of an unsupported body or of all
+///         three of a free vertex; Aborted; std::bad_alloc; std::runtime_error if the system is
+///         singular or the library was built without MUMPS.
 ComputedGreensFunctions computeFiniteElementGreensFunctions(
     const ElasticModel& model, const SolidBody& body, const FiniteElementOptions& options = {},
     const ProgressCallback& progress = {});

@@ -38,4 +38,18 @@ Eigen::MatrixXd HatProducts::solve(
   return result;
 }
 
+Eigen::SparseMatrix<double> productsBetween(const Eigen::SparseMatrix<double>& products,
+                                            const std::vector<int>& rowOf, Eigen::Index rows,
+                                            const std::vector<int>& columnOf,
+                                            Eigen::Index columns) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < products.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(products, column); entry; ++entry)
+      if (columnOf[column] >= 0 && rowOf[entry.row()] >= 0)
+        entries.emplace_back(rowOf[entry.row()], columnOf[column], entry.value());
+  Eigen::SparseMatrix<double> part(rows, columns);
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
 }  // namespace palpate::fem

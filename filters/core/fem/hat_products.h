@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
+#include <vector>
 
 namespace palpate::fem {
 
@@ -23,5 +24,11 @@ class HatProducts {
  private:
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
 };
+
+/// Some rows and columns of a matrix of products.
+/// @param rowOf, columnOf  #vertices: where each goes, -1 for those left out.
+Eigen::SparseMatrix<double> productsBetween(const Eigen::SparseMatrix<double>& products,
+                                            const std::vector<int>& rowOf, Eigen::Index rows,
+                                            const std::vector<int>& columnOf, Eigen::Index columns);
 
 }  // namespace palpate::fem

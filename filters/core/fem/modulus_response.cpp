@@ -24,11 +24,12 @@ class FactoredBody {
       : system_(std::move(system)),
         free_(std::move(free)),
         unknowns_(system_.unknownCount()),
-        products_(amongFree()),
+        products_(amongFree(mesh.vertexCount())),
         inverseAreas_(system_.length * system_.length * mesh.vertexAreas()(free_).cwiseInverse()),
-        factored_(ownEntries(), 0, system_.pressureCount == 0) {
-    if (factored_.negativePivots() != system_.pressureCount)
-      throw std::runtime_error("the sparse system is singular: a part of the body is not held");
+        parts_(system_.entries, unknowns_),
+        hats_(parts_.coupling.middleRows(0, 3 * free_.size())),
+        factored_(std::move(parts_.own), 0, system_.pressureCount == 0) {
+    fem::requireHeld(factored_, system_.pressureCount);
   }
 
   const fem::SolidSystem& system() const { return system_; }
@@ -56,35 +57,10 @@ class FactoredBody {
   }
 
  private:
-  Sparse amongFree() const {
-    std::vector<int> number(system_.hatProducts.cols(), -1);
+  Sparse amongFree(int vertices) const {
+    std::vector<int> number(vertices, -1);
     for (std::size_t i = 0; i < free_.size(); ++i) number[free_[i]] = static_cast<int>(i);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int v : free_)
-      for (Sparse::InnerIterator entry(system_.hatProducts, v); entry; ++entry)
-        if (number[entry.row()] >= 0)
-          entries.emplace_back(number[entry.row()], number[v], entry.value());
-    Sparse products(free_.size(), free_.size());
-    products.setFromTriplets(entries.begin(), entries.end());
-    return products;
-  }
-
-  /// Of the unknowns; sets hats_ by the way.
-  SymmetricEntries ownEntries() {
-    SymmetricEntries own;
-    own.size = unknowns_;
-    std::vector<Eigen::Triplet<double>> hats;
-    const SymmetricEntries& all = system_.entries;
-    const int lastHat = unknowns_ + 3 * static_cast<int>(free_.size());
-    for (std::size_t i = 0; i < all.value.size(); ++i) {
-      if (all.row[i] < unknowns_)
-        own.add(all.row[i], all.column[i], all.value[i]);
-      else if (all.row[i] < lastHat && all.column[i] < unknowns_)
-        hats.emplace_back(all.row[i] - unknowns_, all.column[i], all.value[i]);
-    }
-    hats_.resize(lastHat - unknowns_, unknowns_);
-    hats_.setFromTriplets(hats.begin(), hats.end());
-    return own;
+    return fem::productsBetween(system_.hatProducts, number, free_.size(), number, free_.size());
   }
 
   /// R B, component by component.
@@ -103,6 +79,7 @@ class FactoredBody {
   int unknowns_;
   fem::HatProducts products_;
   Eigen::VectorXd inverseAreas_;
+  fem::SplitEntries parts_;
   Sparse hats_;  // 3 #free by #unknowns
   SparseFactorization factored_;
 };

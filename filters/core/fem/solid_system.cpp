@@ -300,4 +300,28 @@ void SolidSystem::addHats(const ElasticModel& model, const SolidBody& body,
   hatProducts.setFromTriplets(products.begin(), products.end());
 }
 
+SplitEntries::SplitEntries(const SymmetricEntries& all, int first) {
+  own.size = first;
+  std::vector<Eigen::Triplet<double>> couplings, corners;
+  for (std::size_t i = 0; i < all.value.size(); ++i) {
+    const int row = all.row[i], column = all.column[i];
+    if (row < first)
+      own.add(row, column, all.value[i]);
+    else if (column < first)
+      couplings.emplace_back(row - first, column, all.value[i]);
+    else
+      corners.emplace_back(row - first, column - first, all.value[i]);
+  }
+  const int kept = all.size - first;
+  coupling.resize(kept, first);
+  coupling.setFromTriplets(couplings.begin(), couplings.end());
+  corner.resize(kept, kept);
+  corner.setFromTriplets(corners.begin(), corners.end());
+}
+
+void requireHeld(const SparseFactorization& factored, int pressureCount) {
+  if (factored.negativePivots() != pressureCount)
+    throw std::runtime_error("the sparse system is singular: a part of the body is not held");
+}
+
 }  // namespace palpate::fem

@@ -90,4 +90,18 @@ struct SolidSystem {
   int firstPressure_ = 0, firstHat_ = 0;
 };
 
+/// A symmetric matrix in parts.
+struct SplitEntries {
+  /// @param first  how many of the places are unknowns, not kept.
+  SplitEntries(const SymmetricEntries& all, int first);
+
+  SymmetricEntries own;                  ///< of the unknowns
+  Eigen::SparseMatrix<double> coupling;  ///< #kept by #unknowns
+  Eigen::SparseMatrix<double> corner;    ///< of what is kept, lower triangle
+};
+
+/// Pressures count as one negative pivot each; a body that is held has no other.
+/// @throws std::runtime_error if it is not held.
+void requireHeld(const SparseFactorization& factored, int pressureCount);
+
 }  // namespace palpate::fem

@@ -65,7 +65,7 @@ class Condensation {
     } else {
       const SparseFactorization factored(std::move(system_.entries), system_.keptCount(),
                                          system_.pressureCount == 0);
-      requireInertia(factored);
+      requireHeld(factored, system_.pressureCount);
       response.peakBytes =
           factored.peakBytes() + 2 * sizeof(double) * factored.schurComplement().size();
       progress.report(0.9, "condense");
@@ -88,20 +88,10 @@ class Condensation {
 
  private:
   void findProducts() {
-    std::vector<Eigen::Triplet<double>> freeFree, freeFixed;
-    for (int column = 0; column < mesh_.vertexCount(); ++column)
-      for (Sparse::InnerIterator entry(system_.hatProducts, column); entry; ++entry) {
-        const int row = freeNumber_[entry.row()];
-        if (row < 0) continue;
-        if (freeNumber_[column] >= 0)
-          freeFree.emplace_back(row, freeNumber_[column], entry.value());
-        else
-          freeFixed.emplace_back(row, fixedNumber_[column], entry.value());
-      }
-    Sparse products(free_.size(), free_.size());
-    products.setFromTriplets(freeFree.begin(), freeFree.end());
-    toFixed_.resize(free_.size(), system_.fixedVertices.size());
-    toFixed_.setFromTriplets(freeFixed.begin(), freeFixed.end());
+    const Eigen::Index free = free_.size(), fixed = system_.fixedVertices.size();
+    const Sparse products =
+        productsBetween(system_.hatProducts, freeNumber_, free, freeNumber_, free);
+    toFixed_ = productsBetween(system_.hatProducts, freeNumber_, free, fixedNumber_, fixed);
     for (int k = 0; k < (system_.held.cols() > 0 ? 3 : 1); ++k) {
       const auto isHeld = [&](Eigen::Index i) { return system_.isHeldAlong(k, free_[i]); };
       Sparse own = products, across = toFixed_;
@@ -223,42 +213,21 @@ class Condensation {
   /// The same, column by column, by solving with the unknowns' own matrix.
   Eigen::MatrixXd solved(const Eigen::MatrixXd& given, std::size_t& peakBytes,
                          const Progress& progress) {
-    const int unknowns = system_.unknownCount(), kept = system_.keptCount();
-    SymmetricEntries own;
-    own.size = unknowns;
-    std::vector<Eigen::Triplet<double>> coupling, corner;
-    for (std::size_t i = 0; i < system_.entries.value.size(); ++i) {
-      const int row = system_.entries.row[i], column = system_.entries.column[i];
-      const double value = system_.entries.value[i];
-      if (row < unknowns)
-        own.add(row, column, value);
-      else if (column < unknowns)
-        coupling.emplace_back(row - unknowns, column, value);
-      else
-        corner.emplace_back(row - unknowns, column - unknowns, value);
-    }
+    const int unknowns = system_.unknownCount();
+    SplitEntries parts(system_.entries, unknowns);
     system_.entries = {};
-    Sparse couplings(kept, unknowns), corners(kept, kept);
-    couplings.setFromTriplets(coupling.begin(), coupling.end());
-    corners.setFromTriplets(corner.begin(), corner.end());
-    const SparseFactorization factored(std::move(own), 0, system_.pressureCount == 0);
-    requireInertia(factored);
+    const SparseFactorization factored(std::move(parts.own), 0, system_.pressureCount == 0);
+    requireHeld(factored, system_.pressureCount);
     peakBytes = factored.peakBytes() + sizeof(double) * std::size_t(unknowns) * kColumnsAtOnce;
-    Eigen::MatrixXd answer = corners.selfadjointView<Eigen::Lower>() * given;
+    Eigen::MatrixXd answer = parts.corner.selfadjointView<Eigen::Lower>() * given;
     for (Eigen::Index first = 0; first < given.cols(); first += kColumnsAtOnce) {
       const Eigen::Index count = std::min<Eigen::Index>(kColumnsAtOnce, given.cols() - first);
-      Eigen::MatrixXd columns = couplings.transpose() * given.middleCols(first, count);
+      Eigen::MatrixXd columns = parts.coupling.transpose() * given.middleCols(first, count);
       factored.solve(columns);
-      answer.middleCols(first, count).noalias() -= couplings * columns;
+      answer.middleCols(first, count).noalias() -= parts.coupling * columns;
       progress.report(0.5 + 0.5 * double(first + count) / given.cols(), "solve");
     }
     return answer;
-  }
-
-  /// Pressures count as one negative pivot each; a body that is held has no other.
-  void requireInertia(const SparseFactorization& factored) const {
-    if (factored.negativePivots() != system_.pressureCount)
-      throw std::runtime_error("the sparse system is singular: a part of the body is not held");
   }
 
   /// Of null pivots beside kept rows the library does not tell: they spoil what it gives.

@@ -43,9 +43,8 @@ struct FoundedGreensFunctions {
 ///                 released, zero at fixed ones that stay fixed, positive semidefinite at free
 ///                 ones.
 /// @throws std::invalid_argument for springs that are none, no springs at all, a missing column of
-/// a
-///         free vertex or a released one, and where a motion remains that nothing resists; Aborted;
-///         std::bad_alloc.
+///         a free vertex or a released one, and where a motion remains that nothing resists;
+///         Aborted; std::bad_alloc.
 FoundedGreensFunctions onElasticFoundation(const GreensFunctions& greens, const ElasticModel& model,
                                            const Eigen::Matrix3Xd& springs,
                                            const ProgressCallback& progress = {});

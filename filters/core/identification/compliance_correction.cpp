@@ -13,15 +13,13 @@
 
 #include "greens/reciprocity.h"
 #include "identification/compliance_kernel.h"
-#include "identification/robust_statistics.h"
-#include "identification/stiffness_field.h"
+#include "identification/measured_values.h"
 #include "sentence.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kSmoothings[] = {10, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
-constexpr double kFalseOutliers = 0.01;  // expected in a table without any
 constexpr int kTrimmings = 3, kHalvings = 6;
 constexpr double kSolved = 1e-3, kRoughlySolved = 3e-2;  // of the equations' right-hand side
 
@@ -48,32 +46,16 @@ Eigen::MatrixXd leadingPart(const Eigen::MatrixXd& compliance, const GreensFunct
   return leading * leading.transpose();
 }
 
-/// The prior's factor that fits best.
-double factorBy(const Eigen::VectorXd& prior, const MeasuredComponents& table,
-                const Eigen::VectorXd& weights) {
-  const Eigen::ArrayXd squares = weights.array().square();
-  const double along = (squares * prior.array() * table.measured.array()).sum(),
-               size = (squares * prior.array().square()).sum();
-  if (!(size > 0)) refuse("nothing moves at the markers, whatever the stiffness");
-  if (!(along > 0))
-    refuse(
-        "the displacements are against the forces: check the signs of the forces, which are those "
-        "on the body");
-  return along / size;
-}
-
 /// The fit to a table, its smoothing chosen by probes left out, its outliers left out.
 class CorrectionFit {
  public:
-  CorrectionFit(const ComplianceKernel& correction, const MeasuredComponents& table,
-                const Eigen::VectorXd& prior, const MeasuredSetup& setup,
-                const CorrectionOptions& options)
+  CorrectionFit(const ComplianceKernel& correction, const MeasuredValues& table,
+                const Eigen::VectorXd& prior, const CorrectionOptions& options)
       : correction_(correction),
         table_(table),
         prior_(prior),
-        setup_(setup),
         options_(options),
-        weights_(table.weights) {}
+        unit_(table.weights().maxCoeff()) {}
 
   void run() {
     smoothing = options_.smoothing > 0 ? options_.smoothing : chosenSmoothing();
@@ -87,13 +69,15 @@ class CorrectionFit {
   double smoothing = 0, factor = 1, holdOutError = -1, priorHoldOutError = -1;
   Eigen::VectorXd pulls, residuals;
   std::vector<int> outliers;
-  const Eigen::VectorXd& weights() const { return weights_; }
 
  private:
+  /// At most 1.
+  Eigen::VectorXd weights() const { return table_.weightsWithout(outliers) / unit_; }
+
   void fit() {
-    factor = factorBy(prior_, table_, weights_);
-    const Eigen::VectorXd left = table_.measured - factor * prior_;
-    pulls = correction_.pulls(left, weights_, smoothing, kSolved);
+    factor = table_.factorOf(prior_, weights());
+    const Eigen::VectorXd left = table_.measured() - factor * prior_;
+    pulls = correction_.pulls(left, weights(), smoothing, kSolved);
     residuals = left - correction_.seen(pulls);
   }
 
@@ -101,25 +85,20 @@ class CorrectionFit {
   /// @param smoothing  0 for the prior alone.
   /// @param power      2 for the root mean square, 1 where outliers may be among them.
   double heldOut(double smoothing, bool isFinal, int power) const {
-    const int units = setup_.probeCount() > 1 ? setup_.probeCount() : setup_.markerCount();
-    const int folds = std::min(options_.folds, units);
+    const Eigen::VectorXd weights = this->weights();
+    const int folds = table_.foldCount(options_.folds);
     double error = 0, size = 0;
     for (int fold = 0; fold < folds; ++fold) {
-      Eigen::VectorXd kept = weights_;
-      for (int i = 0; i < setup_.markerCount(); ++i)
-        if ((setup_.probeCount() > 1 ? setup_.probeOf[i] : i) % folds == fold)
-          kept.segment<3>(3 * i).setZero();
+      const Eigen::VectorXd kept = table_.withoutFold(weights, fold, folds);
       if (kept.maxCoeff() == 0) continue;
-      const Eigen::VectorXd left = table_.measured - factorBy(prior_, table_, kept) * prior_;
+      const Eigen::VectorXd left = table_.measured() - table_.factorOf(prior_, kept) * prior_;
       Eigen::VectorXd wrong = left;
       if (smoothing > 0)
         wrong -= correction_.seen(
             correction_.pulls(left, kept, smoothing, isFinal ? kSolved : kRoughlySolved));
-      for (Eigen::Index i = 0; i < wrong.size(); ++i)
-        if (weights_[i] > 0 && kept[i] == 0) {
-          error += std::pow(std::abs(wrong[i]), power);
-          size += std::pow(std::abs(table_.measured[i]), power);
-        }
+      const Eigen::ArrayXd held = (weights.array() > 0 && kept.array() == 0).cast<double>();
+      error += (held * wrong.array().abs().pow(power)).sum();
+      size += (held * table_.measured().array().abs().pow(power)).sum();
     }
     return size > 0 ? std::pow(error / size, 1.0 / power) : -1;
   }
@@ -140,30 +119,17 @@ class CorrectionFit {
 
   /// @return whether there are others now.
   bool markOutliers() {
-    std::vector<double> sizes;
-    const Eigen::VectorXd weighted = table_.weights.cwiseProduct(residuals);
-    for (Eigen::Index i = 0; i < weighted.size(); ++i)
-      if (table_.weights[i] > 0) sizes.push_back(std::abs(weighted[i]));
-    const double scale = medianDeviation(std::move(sizes));
-    const double most = chiSquaredOf(kFalseOutliers / setup_.markerCount()) * scale * scale;
-    std::vector<int> found;
-    weights_ = table_.weights;
-    for (int i = 0; i < setup_.markerCount(); ++i)
-      if (weighted.segment<3>(3 * i).squaredNorm() > most) {
-        found.push_back(i);
-        weights_.segment<3>(3 * i).setZero();
-      }
-    const bool changed = found != outliers;
-    outliers = found;
-    return changed;
+    const Eigen::VectorXd weighted = table_.weights().cwiseProduct(residuals);
+    const std::vector<int> before = outliers;
+    outliers = table_.outliersOf(weighted / table_.medianDeviationOf(weighted));
+    return outliers != before;
   }
 
   const ComplianceKernel& correction_;
-  const MeasuredComponents& table_;
+  const MeasuredValues& table_;
   const Eigen::VectorXd& prior_;
-  const MeasuredSetup& setup_;
   const CorrectionOptions& options_;
-  Eigen::VectorXd weights_;
+  double unit_;
 };
 
 void requireSound(const GreensFunctions& prior, const CorrectionOptions& options, int free) {
@@ -195,36 +161,17 @@ Eigen::MatrixXd definitePart(const Eigen::MatrixXd& scaledPrior, const Eigen::Ma
       "or the prior is not definite itself");
 }
 
-void describe(const CorrectionFit& fitted, const MeasuredComponents& table,
-              const Measurements& measurements, MaterialIdentification& result) {
+void describe(const CorrectionFit& fitted, const MeasuredValues& table,
+              MaterialIdentification& result) {
   result.parameters.push_back(
       {"factor on the prior's compliance", "", fitted.factor, 0, fitted.factor, fitted.factor});
   result.correlations = Eigen::MatrixXd::Identity(1, 1);
-  result.residuals = fitted.residuals.reshaped(3, measurements.displacements.size());
-  result.outliers = fitted.outliers;
+  table.describe(fitted.residuals, fitted.outliers, result);
   result.holdOutError = fitted.holdOutError;
-  double sum = 0;
-  std::vector<double> residuals(measurements.probes.size()), sizes(residuals), values(residuals);
-  for (const Probe& probe : measurements.probes) result.probes.push_back({probe.name});
-  for (Eigen::Index i = 0; i < fitted.residuals.size(); ++i) {
-    const int p = measurements.displacements[i / 3].probe;
-    if (i % 3 == 0) ++result.probes[p].markers;
-    if (table.weights[i] == 0)
-      result.residuals.reshaped()[i] = std::numeric_limits<double>::quiet_NaN();
-    if (fitted.weights()[i] == 0) continue;
-    ++result.valueCount;
-    ++values[p];
-    sum += std::pow(fitted.residuals[i], 2);
-    residuals[p] += std::pow(fitted.residuals[i], 2);
-    sizes[p] += std::pow(table.measured[i], 2);
-  }
-  for (int i : fitted.outliers) ++result.probes[measurements.displacements[i].probe].outliers;
-  for (std::size_t p = 0; p < result.probes.size(); ++p)
-    if (values[p] > 0) {
-      result.probes[p].residual = std::sqrt(residuals[p] / values[p]);
-      result.probes[p].relative = sizes[p] > 0 ? std::sqrt(residuals[p] / sizes[p]) : 0;
-    }
-  result.noise = std::sqrt(sum / std::max(1, result.valueCount));
+  const Eigen::VectorXd weights = table.weightsWithout(fitted.outliers);
+  result.noise =
+      std::sqrt((weights.array() > 0).select(fitted.residuals.array().square(), 0).sum() /
+                std::max(1, result.valueCount));
 }
 
 /// Puts a compliance in place of the prior's, all else as it was.
@@ -260,19 +207,20 @@ CorrectedGreensFunctions correctCompliance(const GreensFunctions& prior, const E
   progress.report(0, "gather");
   const std::vector<int> free = model.conditions().freeNodes();
   requireSound(prior, options, static_cast<int>(free.size()));
-  const MeasuredComponents table(setup, measurements, free, prior.nodeCount());
-  if ((table.weights.array() > 0).count() < 6)
+  const MeasuredValues table(measurements);
+  if ((table.weights().array() > 0).count() < 6)
     refuse("a correction needs at least two measured displacements");
   const Eigen::MatrixXd compliance = complianceOf(prior, free);
   const Eigen::MatrixXd forces = nodalForces(setup, measurements, prior.info().vertexAreas);
   Eigen::MatrixXd loads(3 * free.size(), forces.cols());
   for (std::size_t i = 0; i < free.size(); ++i)
     loads.middleRows<3>(3 * i) = forces.middleRows<3>(3 * free[i]);
-  const Eigen::VectorXd seen = table.seen(compliance * loads);
+  const MarkerRows markers(setup, free, prior.nodeCount());
+  const Eigen::VectorXd seen = markers.seen(compliance * loads);
   const ComplianceKernel correction(
       options.modes > 0 ? leadingPart(compliance, prior, free, options.modes) : compliance, loads,
-      table, progress);
-  CorrectionFit fitted(correction, table, seen, setup, options);
+      markers, progress);
+  CorrectionFit fitted(correction, table, seen, options);
   fitted.run();
 
   CorrectedGreensFunctions result{
@@ -300,7 +248,7 @@ CorrectedGreensFunctions correctCompliance(const GreensFunctions& prior, const E
   info.diagnostics.rockingCompliance = rockingCompliance(*result.greens.view(), model.mesh());
   result.smoothing = fitted.smoothing;
   result.priorHoldOutError = fitted.priorHoldOutError;
-  describe(fitted, table, measurements, result.fit);
+  describe(fitted, table, result.fit);
   if (result.share < 1)
     result.fit.warnings.push_back(
         sentence("only ", shortly(100 * result.share),

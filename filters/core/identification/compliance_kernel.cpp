@@ -13,32 +13,21 @@ constexpr int kMostSteps = 200;
 
 }  // namespace
 
-MeasuredComponents::MeasuredComponents(const MeasuredSetup& setup, const Measurements& measurements,
-                                       const std::vector<int>& free, int vertices)
+MarkerRows::MarkerRows(const MeasuredSetup& setup, const std::vector<int>& free, int vertices)
     : setup_(setup), number_(vertices, -1), freeCount_(free.size()) {
   for (std::size_t i = 0; i < free.size(); ++i) number_[free[i]] = static_cast<int>(i);
-  const Eigen::Index count = 3 * measurements.displacements.size();
-  measured.setZero(count);
-  weights.setZero(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const MeasuredDisplacement& here = measurements.displacements[i / 3];
-    if (std::isnan(here.displacement[i % 3])) continue;
-    measured[i] = here.displacement[i % 3];
-    weights[i] = measurements.hasDeviations() ? 1 / here.deviation[i % 3] : 1;
-  }
-  if (count > 0 && weights.maxCoeff() > 0) weights /= weights.maxCoeff();
 }
 
 template <class Act>
-void MeasuredComponents::forCorners(const Act& act) const {
+void MarkerRows::forCorners(const Act& act) const {
   for (int i = 0; i < setup_.markerCount(); ++i)
     for (int k = 0; k < 3; ++k)
       if (const int corner = number_[setup_.nodes[i][k]]; corner >= 0)
         act(i, corner, setup_.weights[i][k]);
 }
 
-Eigen::VectorXd MeasuredComponents::seen(const Eigen::MatrixXd& displacements) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(measured.size());
+Eigen::VectorXd MarkerRows::seen(const Eigen::MatrixXd& displacements) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(3 * setup_.markerCount());
   forCorners([&](int i, int corner, double weight) {
     result.segment<3>(3 * i) +=
         weight * displacements.col(setup_.probeOf[i]).segment<3>(3 * corner);
@@ -46,7 +35,7 @@ Eigen::VectorXd MeasuredComponents::seen(const Eigen::MatrixXd& displacements) c
   return result;
 }
 
-Eigen::MatrixXd MeasuredComponents::spread(const Eigen::VectorXd& values) const {
+Eigen::MatrixXd MarkerRows::spread(const Eigen::VectorXd& values) const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * freeCount_, setup_.probeCount());
   forCorners([&](int i, int corner, double weight) {
     result.col(setup_.probeOf[i]).segment<3>(3 * corner) += weight * values.segment<3>(3 * i);
@@ -55,17 +44,17 @@ Eigen::MatrixXd MeasuredComponents::spread(const Eigen::VectorXd& values) const 
 }
 
 ComplianceKernel::ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads,
-                                   const MeasuredComponents& table, const Progress& progress)
+                                   const MarkerRows& markers, const Progress& progress)
     : kernel_(std::move(kernel)),
-      table_(table),
+      markers_(markers),
       progress_(progress),
       loaded_(kernel_ * loads),
       work_(loads.transpose() * loaded_),
       unit_(kernel_.diagonal().mean() * work_.diagonal().mean() / 2) {}
 
 Eigen::VectorXd ComplianceKernel::seen(const Eigen::VectorXd& pulls) const {
-  const Eigen::MatrixXd places = table_.spread(pulls);
-  return table_.seen((kernel_ * places * work_ + loaded_ * (places.transpose() * loaded_)) / 2);
+  const Eigen::MatrixXd places = markers_.spread(pulls);
+  return markers_.seen((kernel_ * places * work_ + loaded_ * (places.transpose() * loaded_)) / 2);
 }
 
 Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
@@ -89,7 +78,7 @@ Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
 }
 
 Eigen::MatrixXd ComplianceKernel::matrix(const Eigen::VectorXd& pulls) const {
-  const Eigen::MatrixXd half = kernel_ * table_.spread(pulls) * loaded_.transpose() / 2;
+  const Eigen::MatrixXd half = kernel_ * markers_.spread(pulls) * loaded_.transpose() / 2;
   return half + half.transpose();
 }
 

@@ -7,20 +7,18 @@
 #include <vector>
 
 #include "identification/measured_response.h"
-#include "identification/measurements.h"
 #include "progress.h"
 
 namespace palpate {
 
-/// A table, component by component: what a marker i sees of displacements u under its probe is
-/// a_i^T u, with the barycentric weights of its triangle's free corners in a_i.
-class MeasuredComponents {
+/// What a marker i sees of displacements u under its probe: a_i^T u, with the barycentric weights
+/// of its triangle's free corners in a_i.
+class MarkerRows {
  public:
   /// @param setup     outlives this.
   /// @param free      vertices, ascending.
   /// @param vertices  how many there are.
-  MeasuredComponents(const MeasuredSetup& setup, const Measurements& measurements,
-                     const std::vector<int>& free, int vertices);
+  MarkerRows(const MeasuredSetup& setup, const std::vector<int>& free, int vertices);
 
   /// @param displacements  3 #free by #probes.
   /// @return 3 #markers.
@@ -28,9 +26,6 @@ class MeasuredComponents {
 
   /// The transpose of this: of a number a component, 3 #free by #probes.
   Eigen::MatrixXd spread(const Eigen::VectorXd& values) const;
-
-  Eigen::VectorXd measured;  ///< 3 #markers, m
-  Eigen::VectorXd weights;   ///< of 1 / standard deviation, at most 1; 0 where not measured
 
  private:
   template <class Act>
@@ -49,9 +44,9 @@ class ComplianceKernel {
  public:
   /// @param kernel  3 #free squared, symmetric and positive semidefinite, m/N.
   /// @param loads   3 #free by #probes, N.
-  /// @param table   outlives this.
-  ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads,
-                   const MeasuredComponents& table, const Progress& progress);
+  /// @param markers  outlives this.
+  ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads, const MarkerRows& markers,
+                   const Progress& progress);
 
   /// What pulls explain at the markers.
   Eigen::VectorXd seen(const Eigen::VectorXd& pulls) const;
@@ -68,7 +63,7 @@ class ComplianceKernel {
 
  private:
   Eigen::MatrixXd kernel_;
-  const MeasuredComponents& table_;
+  const MarkerRows& markers_;
   Progress progress_;
   Eigen::MatrixXd loaded_, work_;  // K L and L^T K L
   double unit_;                    // what a pull explains of itself, in the mean

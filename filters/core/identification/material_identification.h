@@ -107,8 +107,7 @@ class MaterialIdentifier {
 
   /// @param measurements  of the setup's probes and markers.
   /// @throws std::invalid_argument with what the data cannot see and what would help, if they do
-  /// not
-  ///         determine the unknowns, are fewer than these or contradict every material;
+  ///         not determine the unknowns, are fewer than these or contradict every material;
   ///         std::runtime_error if it does not converge; Aborted.
   MaterialIdentification identify(const Measurements& measurements,
                                   const Progress& progress = {}) const;

@@ -27,6 +27,12 @@ struct MeasuredSetup {
 MeasuredSetup measuredSetup(const SurfaceMesh& mesh, const Measurements& measurements,
                             const MeasuredPlaces& places, std::vector<SpreadForce> loads);
 
+/// The forces of the probes at the vertices.
+/// @param areas  #V.
+/// @return 3 #V by #probes, N.
+Eigen::MatrixXd nodalForces(const MeasuredSetup& setup, const Measurements& measurements,
+                            const Eigen::VectorXd& areas);
+
 /// What markers see of unit forces along x, y and z of their own probe: 3 #markers by 3, m/N. Where
 /// the support yields, fixed nodes are released onto an elastic foundation ([JP01] eq. 18-21 with
 /// all of them switched): with a stiffness k per area,

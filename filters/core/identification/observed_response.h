@@ -33,9 +33,8 @@ ObservedDisplacements observedUnder(const Measurements& measurements,
                                     const std::string& probe, double noise);
 
 /// @throws std::invalid_argument for sizes that differ, less than nine components, a displacement
-/// or
-///         deviation that is not finite or not positive, none that moves, all at one place, and
-///         displacements too large or small for the body, as in a wrong unit.
+///         or deviation that is not finite or not positive, none that moves, all at one place,
+///         and displacements too large or small for the body, as in a wrong unit.
 void requireUsable(const SurfaceMesh& mesh, const ObservedDisplacements& observed);
 
 /// How much more a support gives way than the model's, or less: a rigid motion of all that it

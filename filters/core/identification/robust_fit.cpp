@@ -6,22 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Cholesky>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "identification/robust_statistics.h"
 #include "sentence.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kRobustScale = 2.5;     // norm of a displacement's residuals, standard deviations
-constexpr double kFalseOutliers = 0.01;  // expected in a table without any
-constexpr double kLargestMisfit = 3;     // standard deviations of chi squared
+constexpr double kRobustScale = 2.5;  // norm of a displacement's residuals, standard deviations
+constexpr double kLargestMisfit = 3;  // standard deviations of chi squared
 constexpr int kScalings = 5, kTrimmings = 10;
 constexpr double kSettled = 0.02;  // relative change of the scale
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 int countOf(const Eigen::VectorXd& weights) {
   return static_cast<int>((weights.array() > 0).count());
@@ -32,35 +28,15 @@ int countOf(const Eigen::VectorXd& weights) {
 RobustFit::RobustFit(DisplacementModel model, const Measurements& measurements, RobustLoss loss,
                      const Progress& progress)
     : model_(std::move(model)),
-      measurements_(measurements),
+      table_(measurements),
       loss_(loss),
       progress_(progress),
       unknownCount_(static_cast<int>((model_.precision.array() == 0).count())) {
-  const int markers = static_cast<int>(measurements.displacements.size());
-  measured_.setZero(3 * markers);
-  weights_.setZero(3 * markers);
-  for (int i = 0; i < markers; ++i) {
-    const MeasuredDisplacement& here = measurements.displacements[i];
-    for (int c = 0; c < 3; ++c)
-      if (!std::isnan(here.displacement[c])) {
-        measured_[3 * i + c] = here.displacement[c];
-        weights_[3 * i + c] = measurements.hasDeviations() ? 1 / here.deviation[c] : 1;
-      }
-  }
-  isOutlier_.assign(markers, false);
   requireEnough();
 }
 
 double RobustFit::modulusBy(const Eigen::VectorXd& unit) const {
-  const Eigen::ArrayXd squares = weights_.array().square();
-  const double along = (squares * unit.array() * measured_.array()).sum(),
-               size = (squares * unit.array().square()).sum();
-  if (!(size > 0)) refuse("nothing moves at the markers, whatever the material");
-  if (!(along > 0))
-    refuse(
-        "the displacements are against the forces, which no material explains: check the signs "
-        "of the forces, which are those on the body");
-  return size / along;
+  return 1 / table_.factorOf(unit, table_.weights());
 }
 
 /// What is known beforehand are residuals behind those of the markers.
@@ -72,7 +48,7 @@ LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::
   problem.start = from;
   problem.lower = model_.lower;
   problem.upper = model_.upper;
-  problem.groups = markerCount() + priors;
+  problem.groups = table_.markerCount() + priors;
   problem.plainGroups = priors;
   problem.loss = loss;
   problem.scale = kRobustScale;
@@ -82,7 +58,7 @@ LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::
     Eigen::MatrixXd derivatives;
     const Eigen::VectorXd moved = model_.displacements(unknowns, jacobian ? &derivatives : nullptr);
     residuals.setZero(3 * problem.groups);
-    residuals.head(weights.size()) = weights.cwiseProduct(moved - measured_);
+    residuals.head(weights.size()) = weights.cwiseProduct(moved - table_.measured());
     if (priors > 0) residuals.segment(weights.size(), known.size()) = known.cwiseProduct(unknowns);
     if (!jacobian) return;
     jacobian->setZero(residuals.size(), unknowns.size());
@@ -98,39 +74,22 @@ LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::
 
 /// Exact data have no scale of their own.
 double RobustFit::roundingOf(const Eigen::VectorXd& weights) const {
-  return 1e-9 * weights.cwiseProduct(measured_).cwiseAbs().maxCoeff();
+  return 1e-9 * weights.cwiseProduct(table_.measured()).cwiseAbs().maxCoeff();
 }
 
 double RobustFit::robustScale() const {
-  const Eigen::VectorXd residuals = weights_.cwiseProduct(residuals_);
-  std::vector<double> sizes;
-  for (Eigen::Index i = 0; i < residuals.size(); ++i)
-    if (weights_[i] > 0) sizes.push_back(std::abs(residuals[i]));
+  const double deviation = table_.medianDeviationOf(table_.weights().cwiseProduct(residuals_));
   // Of many unknowns some go with the noise.
-  const double taken = countOf(weights_) / freedomOf(weights_);
-  const double scale =
-      std::max(std::sqrt(taken) * medianDeviation(std::move(sizes)), roundingOf(weights_));
-  return measurements_.hasDeviations() ? std::max(1.0, scale) : scale;
-}
-
-Eigen::VectorXd RobustFit::inlierWeights() const {
-  Eigen::VectorXd weights = weights_;
-  for (int i = 0; i < markerCount(); ++i)
-    if (isOutlier_[i]) weights.segment<3>(3 * i).setZero();
-  return weights;
+  const double taken = countOf(table_.weights()) / freedomOf(table_.weights());
+  const double scale = std::max(std::sqrt(taken) * deviation, roundingOf(table_.weights()));
+  return table_.table().hasDeviations() ? std::max(1.0, scale) : scale;
 }
 
 /// @return whether others are outliers now.
 bool RobustFit::markOutliers() {
-  const Eigen::VectorXd residuals = weights_.cwiseProduct(residuals_) / scale_;
-  const double most = chiSquaredOf(kFalseOutliers / markerCount());
-  bool changed = false;
-  for (int i = 0; i < markerCount(); ++i) {
-    const bool isOutlier = residuals.segment<3>(3 * i).squaredNorm() > most;
-    changed = changed || isOutlier != isOutlier_[i];
-    isOutlier_[i] = isOutlier;
-  }
-  return changed;
+  const std::vector<int> before = outliers_;
+  outliers_ = table_.outliersOf(table_.weights().cwiseProduct(residuals_) / scale_);
+  return outliers_ != before;
 }
 
 /// A fit, and the scale that it leaves.
@@ -156,12 +115,12 @@ void RobustFit::run(const Eigen::VectorXd& start) {
   const bool isScaleFelt = unknownCount_ < model_.count();
   if (loss_ == RobustLoss::None) {
     if (isScaleFelt)
-      untilSettled(weights_, loss_);
+      untilSettled(table_.weights(), loss_);
     else
-      settle(weights_, loss_);
+      settle(table_.weights(), loss_);
     return;
   }
-  untilSettled(weights_, loss_);
+  untilSettled(table_.weights(), loss_);
   markOutliers();
   for (int i = 0; i < kTrimmings; ++i) {
     requireEnough();
@@ -190,7 +149,7 @@ double RobustFit::freedomOf(const Eigen::VectorXd& weights) const {
 double RobustFit::scaleOf(const Eigen::VectorXd& weights) const {
   const double freedom = freedomOf(weights);
   const double square = weights.cwiseProduct(residuals_).squaredNorm() / freedom;
-  if (measurements_.hasDeviations() && square <= 1 + kLargestMisfit * std::sqrt(2.0 / freedom))
+  if (table_.table().hasDeviations() && square <= 1 + kLargestMisfit * std::sqrt(2.0 / freedom))
     return 1;
   return std::max(std::sqrt(square), roundingOf(weights));
 }
@@ -203,51 +162,23 @@ void RobustFit::requireEnough() const {
 }
 
 void RobustFit::describe(MaterialIdentification& result) const {
-  result.residuals = residuals_.reshaped(3, markerCount());
-  for (Eigen::Index i = 0; i < weights_.size(); ++i)
-    if (weights_[i] == 0) result.residuals.reshaped()[i] = kNotMeasured;
-  for (int i = 0; i < markerCount(); ++i)
-    if (isOutlier_[i]) result.outliers.push_back(i);
+  table_.describe(residuals_, outliers_, result);
   const Eigen::VectorXd weights = inlierWeights();
-  result.valueCount = countOf(weights);
   const double freedom = freedomOf(weights);
   result.noise =
       std::sqrt((weights.array() > 0).select(residuals_.array().square(), 0).sum() / freedom);
-  if (measurements_.hasDeviations())
+  if (table_.table().hasDeviations())
     result.misfit = std::sqrt(weights.cwiseProduct(residuals_).squaredNorm() / freedom);
-  describeProbes(result);
   if (result.misfit > 0 && scale_ > 1)
     result.warnings.push_back(
         sentence("residuals are ", shortly(result.misfit),
                  " times the standard deviations given, by which all deviations here are "
                  "enlarged: the model differs from the body, or the noise was underrated"));
-  const double share = double(result.outliers.size()) / markerCount();
+  const double share = double(result.outliers.size()) / table_.markerCount();
   if (share > 0.2)
     result.warnings.push_back(
         sentence(shortly(100 * share),
                  " % of the displacements contradict the rest: the table or the model is wrong"));
-}
-
-void RobustFit::describeProbes(MaterialIdentification& result) const {
-  const int probes = static_cast<int>(measurements_.probes.size());
-  std::vector<double> values(probes), residuals(probes), sizes(probes);
-  for (const Probe& probe : measurements_.probes) result.probes.push_back({probe.name});
-  for (int i = 0; i < markerCount(); ++i) {
-    const int p = measurements_.displacements[i].probe;
-    ++result.probes[p].markers;
-    result.probes[p].outliers += isOutlier_[i];
-    for (int c = 0; c < 3 && !isOutlier_[i]; ++c)
-      if (weights_[3 * i + c] > 0) {
-        ++values[p];
-        residuals[p] += std::pow(result.residuals(c, i), 2);
-        sizes[p] += std::pow(measured_[3 * i + c], 2);
-      }
-  }
-  for (int p = 0; p < probes; ++p) {
-    if (values[p] == 0) continue;
-    result.probes[p].residual = std::sqrt(residuals[p] / values[p]);
-    result.probes[p].relative = sizes[p] > 0 ? std::sqrt(residuals[p] / sizes[p]) : 0;
-  }
 }
 
 /// Of the unknowns by what is kept; none where that does not lead to any.
@@ -276,8 +207,7 @@ Eigen::VectorXd RobustFit::linearResidualsWithout(const Eigen::VectorXd& kept,
 }
 
 double RobustFit::holdOutError(int wanted) const {
-  const int probes = static_cast<int>(measurements_.probes.size());
-  const int units = probes > 1 ? probes : markerCount(), folds = std::min(wanted, units);
+  const int folds = table_.foldCount(wanted);
   if (folds < 2) return -1;
   const Eigen::VectorXd weights = inlierWeights();
   Eigen::MatrixXd jacobian;
@@ -285,17 +215,14 @@ double RobustFit::holdOutError(int wanted) const {
   double error = 0, size = 0;
   for (int fold = 0; fold < folds; ++fold) {
     progress_.report(0.6 + 0.4 * fold / folds, "cross-validate");
-    Eigen::VectorXd kept = weights;
-    for (int i = 0; i < markerCount(); ++i)
-      if ((probes > 1 ? measurements_.displacements[i].probe : i) % folds == fold)
-        kept.segment<3>(3 * i).setZero();
+    const Eigen::VectorXd kept = table_.withoutFold(weights, fold, folds);
     if (countOf(kept) <= unknownCount_) return -1;
     const Eigen::VectorXd residuals =
         model_.isDear ? linearResidualsWithout(kept, jacobian) : residualsWithout(kept);
     if (residuals.size() == 0) return -1;
     const Eigen::ArrayXd held = (weights.array() > 0 && kept.array() == 0).cast<double>();
     error += (held * residuals.array()).square().sum();
-    size += (held * measured_.array()).square().sum();
+    size += (held * table_.measured().array()).square().sum();
   }
   return size > 0 ? std::sqrt(error / size) : -1;
 }

@@ -9,6 +9,7 @@
 
 #include "identification/least_squares.h"
 #include "identification/material_identification.h"
+#include "identification/measured_values.h"
 #include "identification/measurements.h"
 #include "progress.h"
 
@@ -64,9 +65,8 @@ class RobustFit {
   double holdOutError(int folds) const;
 
  private:
-  int markerCount() const { return static_cast<int>(isOutlier_.size()); }
   Eigen::VectorXd residualsAt(const Eigen::VectorXd& unknowns) const {
-    return measured_ - model_.displacements(unknowns, nullptr);
+    return table_.measured() - model_.displacements(unknowns, nullptr);
   }
   LeastSquaresSolution solve(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
                              RobustLoss loss) const;
@@ -74,22 +74,20 @@ class RobustFit {
   double robustScale() const;
   double scaleOf(const Eigen::VectorXd& weights) const;
   double freedomOf(const Eigen::VectorXd& weights) const;
-  Eigen::VectorXd inlierWeights() const;
+  Eigen::VectorXd inlierWeights() const { return table_.weightsWithout(outliers_); }
   bool markOutliers();
   void settle(const Eigen::VectorXd& weights, RobustLoss loss);
   void requireEnough() const;
-  void describeProbes(MaterialIdentification& result) const;
   Eigen::VectorXd residualsWithout(const Eigen::VectorXd& kept) const;
   Eigen::VectorXd linearResidualsWithout(const Eigen::VectorXd& kept,
                                          const Eigen::MatrixXd& jacobian) const;
 
   DisplacementModel model_;
-  const Measurements& measurements_;
+  MeasuredValues table_;
   RobustLoss loss_;
   Progress progress_;
-  int unknownCount_;                    // of which nothing is known before
-  Eigen::VectorXd measured_, weights_;  // 3 #markers; weights 0 where not measured
-  std::vector<bool> isOutlier_;
+  int unknownCount_;  // of which nothing is known before
+  std::vector<int> outliers_;
   Eigen::VectorXd unknowns_, residuals_;
   double scale_ = 1;  // standard deviation of weighted residuals
   LeastSquaresSolution solution_;

@@ -181,18 +181,6 @@ void describe(const RobustFit& fit, const FieldModel& field, const StiffnessFiel
 
 }  // namespace
 
-Eigen::MatrixXd nodalForces(const MeasuredSetup& setup, const Measurements& measurements,
-                            const Eigen::VectorXd& areas) {
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * areas.size(), setup.probeCount());
-  for (int p = 0; p < setup.probeCount(); ++p)
-    for (std::size_t i = 0; i < setup.loads[p].nodes.size(); ++i) {
-      const int node = setup.loads[p].nodes[i];
-      forces.col(p).segment<3>(3 * node) +=
-          setup.loads[p].density[i] * areas[node] * measurements.probes[p].force;
-    }
-  return forces;
-}
-
 StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::MatrixXd& modes,
                                       const Eigen::VectorXd& volumes, const MeasuredSetup& setup,
                                       const Measurements& measurements,

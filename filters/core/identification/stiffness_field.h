@@ -47,12 +47,6 @@ struct MovedSurface {
 using MovedSurfaceOf = std::function<MovedSurface(
     const Eigen::VectorXd& modulus, double poissonRatio, bool derivatives, const Progress&)>;
 
-/// The forces of the probes at the vertices.
-/// @param areas  #V.
-/// @return 3 #V by #probes, N.
-Eigen::MatrixXd nodalForces(const MeasuredSetup& setup, const Measurements& measurements,
-                            const Eigen::VectorXd& areas);
-
 /// Identifies the field as the most probable one, given that the a_k are standard normal beforehand
 /// and the noise of the measurements is the same all over or as the table tells; where it does not,
 /// the noise is what residuals leave.

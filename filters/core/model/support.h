@@ -40,9 +40,8 @@ RigidMotion leastResistedMotion(const Eigen::Matrix3Xd& points, const Eigen::Mat
                                 double bodySize, const Eigen::Matrix3Xd& axes = {});
 
 /// @param nodes  fixed nodes, all three directions of each.
-/// @throws std::invalid_argument naming the body and the motion if the nodes leave a rigid motion
-/// of
-///         any body free.
+/// @throws std::invalid_argument naming the body and the motion if the nodes leave a rigid
+///         motion of any body free.
 void requireSupport(const SurfaceMesh& mesh, const BoundaryConditions& conditions);
 
 /// Width of the widest connected set of fixed nodes, over the mean edge length within it: its

@@ -5,7 +5,9 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "identification/measurement_file.h"
 #include "sentence.h"
+#include "units.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -145,10 +147,15 @@ void readProbes(vtkPolyData* table, double length, double force, Measurements& r
     result.probes.push_back(probe);
   }
 }
-} // namespace
 
-namespace
+void requireOne(vtkPolyData* table, const std::string& file, const char* what)
 {
+  if (!table == file.empty())
+  {
+    refuse(what, " come from a file or from the input of their table: give one of the two");
+  }
+}
+
 /// Displacements of the probes that are there; without any all are of one.
 void readDisplacements(vtkPolyData* table, double length, Measurements& result)
 {
@@ -247,6 +254,22 @@ Measurements observationsOf(vtkPolyData* table, double length)
   }
   requireSound(result);
   return result;
+}
+
+Measurements measurementsFrom(vtkPolyData* table, const std::string& file,
+  const std::string& lengthUnit, const std::string& forceUnit)
+{
+  requireOne(table, file, "measurements");
+  const MeasurementUnits units{ lengthUnitNamed(lengthUnit), forceUnitNamed(forceUnit) };
+  return table ? measurementsOf(table, units.length, units.force) : readMeasurementFile(file, units);
+}
+
+Measurements observationsFrom(
+  vtkPolyData* table, const std::string& file, const std::string& lengthUnit)
+{
+  requireOne(table, file, "displacements");
+  const double length = lengthUnitNamed(lengthUnit);
+  return table ? observationsOf(table, length) : readObservationFile(file, length);
 }
 
 void setMeasurements(vtkPolyData* table, const Measurements& measurements)

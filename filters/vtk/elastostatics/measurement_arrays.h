@@ -8,6 +8,7 @@
 #include "identification/measurements.h"
 #include "identification/registration.h"
 
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -23,6 +24,14 @@ Measurements measurementsOf(vtkPolyData* table, double length = 1, double force 
 /// The same of what moves under unknown contacts: without arrays of probes but their names, and of one
 /// where MeasurementProbe is missing.
 Measurements observationsOf(vtkPolyData* table, double length = 1);
+
+/// The same from an input or a file, one of the two, in units by name.
+/// @param table  null for none.
+/// @param file   empty for none.
+Measurements measurementsFrom(vtkPolyData* table, const std::string& file,
+  const std::string& lengthUnit, const std::string& forceUnit);
+Measurements observationsFrom(
+  vtkPolyData* table, const std::string& file, const std::string& lengthUnit);
 
 /// Adds a table, in place of one that is there.
 void setMeasurements(vtkPolyData* table, const Measurements& measurements);

@@ -350,6 +350,14 @@ std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& 
   return fingerprint.value();
 }
 
+void replaceSurface(vtkPolyData* output, vtkPolyData* surface)
+{
+  output->CopyStructure(surface);
+  output->GetPointData()->ShallowCopy(surface->GetPointData());
+  output->GetCellData()->ShallowCopy(surface->GetCellData());
+  removeMeshResults(output);
+}
+
 vtkSmartPointer<vtkPolyData> boundaryOf(
   const Tetrahedralization& filled, const std::shared_ptr<const SurfaceMesh>& mesh, vtkPolyData* surface)
 {

@@ -28,6 +28,10 @@ TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid);
 /// The boundary of a grid's tetrahedra, with the grid's point and field data.
 vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid);
 
+/// Puts another surface with its point and cell data in place of an output's own, and takes away what
+/// belonged to that.
+void replaceSurface(vtkPolyData* output, vtkPolyData* surface);
+
 /// Materials as the cell arrays of a grid give them (see vtkFiniteElementGreensFunctions).
 struct CellMaterials
 {

@@ -6,12 +6,10 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "identification/compliance_correction.h"
-#include "identification/measurement_file.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"
 #include "sentence.h"
-#include "units.h"
 
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -66,18 +64,6 @@ int vtkComplianceCorrection::FillInputPortInformation(int port, vtkInformation* 
   return 1;
 }
 
-palpate::Measurements vtkComplianceCorrection::MeasurementsOf(vtkPolyData* table) const
-{
-  if (!table == this->MeasurementFileName.empty())
-  {
-    palpate::refuse("measurements come from a file or from the second input: give one of the two");
-  }
-  const palpate::MeasurementUnits units{ palpate::lengthUnitNamed(this->LengthUnit),
-    palpate::forceUnitNamed(this->ForceUnit) };
-  return table ? palpate::convert::measurementsOf(table, units.length, units.force)
-               : palpate::readMeasurementFile(this->MeasurementFileName, units);
-}
-
 void vtkComplianceCorrection::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
@@ -86,7 +72,9 @@ void vtkComplianceCorrection::Compute(
   {
     palpate::refuse("the tolerance of places must be from 0 to 1, not ", this->PlaceTolerance);
   }
-  const palpate::Measurements measurements = this->MeasurementsOf(vtkPolyData::GetData(inputs[1]));
+  const palpate::Measurements measurements =
+    convert::measurementsFrom(vtkPolyData::GetData(inputs[1]), this->MeasurementFileName,
+      this->LengthUnit, this->ForceUnit);
   const convert::ServedModel served = convert::servedModelOf(input);
   const palpate::GreensFunctionsInfo& info = served.greens->info();
   const palpate::ElasticModel model(

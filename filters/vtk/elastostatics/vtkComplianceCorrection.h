@@ -23,11 +23,6 @@
 
 #include <string> // for names
 
-namespace palpate
-{
-struct Measurements;
-}
-
 class PALPATEELASTOSTATICS_EXPORT vtkComplianceCorrection : public vtkElastostaticAlgorithm
 {
 public:
@@ -98,8 +93,6 @@ protected:
 private:
   vtkComplianceCorrection(const vtkComplianceCorrection&) = delete;
   void operator=(const vtkComplianceCorrection&) = delete;
-
-  palpate::Measurements MeasurementsOf(vtkPolyData* table) const;
 
   int NumberOfModes = 0;
   int NumberOfFolds = 5;

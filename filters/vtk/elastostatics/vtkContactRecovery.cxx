@@ -7,12 +7,10 @@
 #include "conversion.h"
 #include "greens/surface_fields.h"
 #include "identification/contact_recovery.h"
-#include "identification/measurement_file.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "recovery_arrays.h"
 #include "sentence.h"
-#include "units.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -66,17 +64,6 @@ int vtkContactRecovery::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-palpate::Measurements vtkContactRecovery::ObservationsOf(vtkPolyData* table) const
-{
-  if (!table == this->DisplacementFileName.empty())
-  {
-    palpate::refuse("displacements come from a file or from the second input: give one of the two");
-  }
-  const double length = palpate::lengthUnitNamed(this->LengthUnit);
-  return table ? palpate::convert::observationsOf(table, length)
-               : palpate::readObservationFile(this->DisplacementFileName, length);
-}
-
 void vtkContactRecovery::Compute(
   vtkPolyData* input, vtkPolyData* output, vtkInformationVector** inputs)
 {
@@ -85,7 +72,8 @@ void vtkContactRecovery::Compute(
   {
     palpate::refuse("the tolerance of places must be from 0 to 1, not ", this->PlaceTolerance);
   }
-  const palpate::Measurements observations = this->ObservationsOf(vtkPolyData::GetData(inputs[1]));
+  const palpate::Measurements observations = convert::observationsFrom(
+    vtkPolyData::GetData(inputs[1]), this->DisplacementFileName, this->LengthUnit);
   const convert::ServedModel served = convert::servedModelOf(input);
   const palpate::SurfaceMesh& mesh = *served.mesh;
   const palpate::ObservedDisplacements observed = palpate::observedUnder(observations,

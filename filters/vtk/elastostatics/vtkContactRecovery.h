@@ -22,11 +22,6 @@
 
 #include <string> // for names
 
-namespace palpate
-{
-struct Measurements;
-}
-
 class PALPATEELASTOSTATICS_EXPORT vtkContactRecovery : public vtkElastostaticAlgorithm
 {
 public:
@@ -115,8 +110,6 @@ protected:
 private:
   vtkContactRecovery(const vtkContactRecovery&) = delete;
   void operator=(const vtkContactRecovery&) = delete;
-
-  palpate::Measurements ObservationsOf(vtkPolyData* table) const;
 
   double Friction = 0.5;
   double Noise = 0;

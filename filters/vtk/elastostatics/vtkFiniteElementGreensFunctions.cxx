@@ -9,10 +9,8 @@
 #include "original_arrays.h"
 #include "volume_arrays.h"
 
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -139,10 +137,7 @@ void vtkFiniteElementGreensFunctions::Compute(
   }
   if (this->Filled)
   {
-    output->CopyStructure(this->Filled);
-    output->GetPointData()->ShallowCopy(this->Filled->GetPointData());
-    output->GetCellData()->ShallowCopy(this->Filled->GetCellData());
-    convert::removeMeshResults(output);
+    convert::replaceSurface(output, this->Filled);
   }
   convert::removeResponses(output);
   if (this->Filled && convert::hasOriginal(input))

@@ -7,13 +7,11 @@
 #include "bem/boundary_element_method.h"
 #include "conversion.h"
 #include "fem/finite_element_method.h"
-#include "identification/measurement_file.h"
 #include "identification/next_probes.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"
 #include "sentence.h"
-#include "units.h"
 #include "volume_arrays.h"
 
 #include "vtkCellData.h"
@@ -165,22 +163,11 @@ int vtkGreensFunctionIdentification::FillInputPortInformation(int port, vtkInfor
   return 1;
 }
 
-palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOf(vtkPolyData* table) const
-{
-  if (!table == this->MeasurementFileName.empty())
-  {
-    palpate::refuse("measurements come from a file or from the third input: give one of the two");
-  }
-  const palpate::MeasurementUnits units{ palpate::lengthUnitNamed(this->LengthUnit),
-    palpate::forceUnitNamed(this->ForceUnit) };
-  return table ? palpate::convert::measurementsOf(table, units.length, units.force)
-               : palpate::readMeasurementFile(this->MeasurementFileName, units);
-}
-
 palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOn(const palpate::SurfaceMesh& mesh,
   vtkPolyData* table, std::optional<palpate::Registration>& registration)
 {
-  palpate::Measurements measurements = this->MeasurementsOf(table);
+  palpate::Measurements measurements = palpate::convert::measurementsFrom(
+    table, this->MeasurementFileName, this->LengthUnit, this->ForceUnit);
   if (!this->Register)
   {
     return measurements;

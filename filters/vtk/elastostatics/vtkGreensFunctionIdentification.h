@@ -192,7 +192,6 @@ private:
   void operator=(const vtkGreensFunctionIdentification&) = delete;
 
   struct Body;
-  palpate::Measurements MeasurementsOf(vtkPolyData* table) const;
   Body BodyOf(vtkPolyData* surface, vtkUnstructuredGrid* grid) const;
   palpate::IdentificationOptions OptionsFor(const Body& body) const;
   palpate::MaterialIdentifier IdentifierFor(const Body& body, const palpate::Measurements& measurements,

@@ -22,7 +22,6 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -186,10 +185,7 @@ void vtkStiffnessFieldIdentification::Compute(
   convert::setGreensFunctions(computed, found, std::move(greens));
   if (surface != input)
   {
-    output->CopyStructure(surface);
-    output->GetPointData()->ShallowCopy(surface->GetPointData());
-    output->GetCellData()->ShallowCopy(surface->GetCellData());
-    convert::removeMeshResults(output);
+    convert::replaceSurface(output, surface);
   }
   convert::removeResponses(output);
   convert::setFieldNumber(output, palpate::arrays::YoungsModulus, mean.youngsModulus());

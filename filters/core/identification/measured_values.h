@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/material_identification.h"
+#include "identification/measurements.h"
+
+namespace palpate {
+
+/// A table of measurements, component by component: what every fit to it shares.
+class MeasuredValues {
+ public:
+  /// @param measurements  outlives this.
+  explicit MeasuredValues(const Measurements& measurements);
+
+  const Measurements& table() const { return table_; }
+  int markerCount() const { return static_cast<int>(table_.displacements.size()); }
+  /// 3 #markers, m; 0 where not measured.
+  const Eigen::VectorXd& measured() const { return measured_; }
+  /// 3 #markers: 1 / standard deviation, or 1 if none is given; 0 where not measured.
+  const Eigen::VectorXd& weights() const { return weights_; }
+  /// The same, 0 at outliers, too.
+  /// @param outliers  markers.
+  Eigen::VectorXd weightsWithout(const std::vector<int>& outliers) const;
+
+  /// The factor that brings displacements nearest to those measured.
+  /// @param displacements  3 #markers.
+  /// @throws std::invalid_argument if nothing moves, or all against the forces.
+  double factorOf(const Eigen::VectorXd& displacements, const Eigen::VectorXd& weights) const;
+
+  /// The standard deviation of weighted residuals by their median.
+  double medianDeviationOf(const Eigen::VectorXd& residuals) const;
+
+  /// Markers whose residuals chance does not explain: without outliers one in a hundred tables has
+  /// such a marker.
+  /// @param residuals  over their standard deviations, 3 #markers; 0 where not measured.
+  std::vector<int> outliersOf(const Eigen::VectorXd& residuals) const;
+
+  /// In how many folds of those wanted the table is split: by probes, of one probe by markers.
+  int foldCount(int wanted) const;
+  /// Weights, but 0 in a fold.
+  Eigen::VectorXd withoutFold(const Eigen::VectorXd& weights, int fold, int folds) const;
+
+  /// Sets residuals, outliers, the number of values that count, and probes.
+  /// @param residuals  measured less predicted, 3 #markers, m.
+  void describe(const Eigen::VectorXd& residuals, const std::vector<int>& outliers,
+                MaterialIdentification& result) const;
+
+ private:
+  const Measurements& table_;
+  Eigen::VectorXd measured_, weights_;
+};
+
+}  // namespace palpate
