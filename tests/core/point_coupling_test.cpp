@@ -32,7 +32,11 @@ class PointCouplings : public testing::Test {
   }
   static void put(PointCoupling& coupling, int point, const SurfacePoint& place,
                   const SurfaceStiffness& stiffness = *stiffness_) {
-    coupling.place(point, place, stiffness.hapticAt(place.triangle, place.barycentric));
+    coupling.place(point, place, servedAt(place, stiffness));
+  }
+  static Eigen::Matrix3d servedAt(const SurfacePoint& place,
+                                  const SurfaceStiffness& stiffness = *stiffness_) {
+    return stiffness.hapticAt(place.triangle, place.barycentric);
   }
   static TouchedBody* body_;
   static std::shared_ptr<const SurfaceStiffness> stiffness_;
@@ -40,7 +44,7 @@ class PointCouplings : public testing::Test {
 TouchedBody* PointCouplings::body_ = nullptr;
 std::shared_ptr<const SurfaceStiffness> PointCouplings::stiffness_;
 
-TEST_F(PointCouplings, AreMeanDisplacementsUnderTheOthersForces) {
+TEST_F(PointCouplings, AreWhatIsStatedOfMasksAndGreensFunctions) {
   const SurfacePoint a = nearestTo({0.1, 0.2, 1}), b = nearestTo({1, 0.3, 0.3});
   const SurfacePoint low = nearestTo({0.3, -1, -0.55});  // a corner is fixed
   PointCoupling coupling(*stiffness_, 3);
@@ -51,8 +55,9 @@ TEST_F(PointCouplings, AreMeanDisplacementsUnderTheOthersForces) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       if (i == j) continue;
-      const Eigen::Matrix3d dense = meanCompliance(stiffness_, points[i], points[j]);
-      EXPECT_LE((coupling.block(i, j) - dense).norm(), 1e-13 * dense.norm()) << i << ", " << j;
+      const Eigen::Matrix3d dense = coupledCompliance(
+          {{stiffness_, 1}}, points[i], servedAt(points[i]), points[j], servedAt(points[j]));
+      EXPECT_LE((coupling.block(i, j) - dense).norm(), 1e-12 * dense.norm()) << i << ", " << j;
       EXPECT_EQ(coupling.block(i, j), Eigen::Matrix3d(coupling.block(j, i).transpose()));
     }
   Eigen::VectorXd forces(9);
@@ -135,8 +140,9 @@ TEST_F(PointCouplings, StayPositiveDefiniteAndAreLoweredForNothingElse) {
   put(coupling, 0, here);
   put(coupling, 1, away);
   coupling.limit();
-  const Eigen::Matrix3d dense = meanCompliance(stiffness_, here, away);
-  EXPECT_LE((coupling.block(0, 1) - dense).norm(), 1e-13 * dense.norm());
+  const Eigen::Matrix3d dense =
+      coupledCompliance({{stiffness_, 1}}, here, servedAt(here), away, servedAt(away));
+  EXPECT_LE((coupling.block(0, 1) - dense).norm(), 1e-12 * dense.norm());
   EXPECT_GT(definiteness(coupling, {here, away}, *stiffness_), 1 - PointCoupling::kLargestShare);
   // In one place, and a third and a fourth as well.
   put(coupling, 1, here);
@@ -156,14 +162,66 @@ TEST_F(PointCouplings, GoOverToAnotherStiffnessBySharesOfBoth) {
   PointCoupling coupling(*stiffness_, 2);
   put(coupling, 0, a);
   put(coupling, 1, b);
-  const Eigen::Matrix3d before = coupling.block(0, 1), after = meanCompliance(wide, a, b);
+  const Eigen::Matrix3d before = coupling.block(0, 1);
   coupling.setStiffness(*wide);
   EXPECT_EQ(coupling.block(0, 1), before);
-  coupling.setShare(0.25);
-  EXPECT_LE((coupling.block(0, 1) - 0.75 * before - 0.25 * after).norm(), 1e-13 * before.norm());
-  coupling.setShare(1);
-  EXPECT_LE((coupling.block(0, 1) - after).norm(), 1e-13 * before.norm());
-  EXPECT_GT((after - before).norm(), 1e-3 * before.norm());
+  for (double share : {0.25, 1.0}) {
+    const auto served = [&](const SurfacePoint& place) -> Eigen::Matrix3d {
+      return share * servedAt(place, *wide) + (1 - share) * servedAt(place);
+    };
+    coupling.setShare(share);
+    coupling.place(0, a, served(a));
+    coupling.place(1, b, served(b));
+    const Eigen::Matrix3d stated =
+        coupledCompliance({{wide, share}, {stiffness_, 1 - share}}, a, served(a), b, served(b));
+    EXPECT_LE((coupling.block(0, 1) - stated).norm(), 1e-12 * before.norm()) << share;
+    EXPECT_GT((coupling.block(0, 1) - before).norm(), 1e-3 * before.norm()) << share;
+  }
+}
+
+/// How far the displacement of one vertex under the mask of another, which stiffnesses are by, is
+/// from what points feel, at the vertices of a line from one.
+TEST_F(PointCouplings, AreNearToTheDisplacementsThatStiffnessesAreBy) {
+  const TouchedBody fine = touchedSphere(3, true);
+  const auto stiffness = maskedStiffness(fine, 3);
+  const auto atVertex = [&](int vertex) {
+    for (int f = 0; f < fine.mesh->triangleCount(); ++f)
+      for (int k = 0; k < 3; ++k)
+        if (fine.mesh->triangles()(k, f) == vertex)
+          return SurfacePoint{f, Eigen::Vector3d::Unit(k)};
+    throw std::logic_error("no triangle");
+  };
+  const auto vertexNear = [&](double angle) {
+    int nearest = 0;
+    (fine.mesh->points().colwise() - Eigen::Vector3d(std::sin(angle), 0, std::cos(angle)))
+        .colwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    return nearest;
+  };
+  const int top = vertexNear(0);
+  const SurfacePoint first = atVertex(top);
+  PointCoupling coupling(*stiffness, 2);
+  put(coupling, 0, first, *stiffness);
+  double worst = 0, worstMean = 0;
+  for (double angle = 0; angle < 0.9; angle += 0.1) {
+    const int other = vertexNear(angle);
+    const SurfacePoint second = atVertex(other);
+    put(coupling, 1, second, *stiffness);
+    Eigen::Matrix3d seen;
+    Eigen::Matrix3Xd displacement, traction;
+    for (int c = 0; c < 3; ++c) {
+      PointContact(stiffness, second).deform(Eigen::Vector3d::Unit(c), displacement, traction);
+      seen.col(c) = displacement.col(top);
+    }
+    const auto off = [&](const Eigen::Matrix3d& block) {
+      return (block - seen).norm() / seen.norm();
+    };
+    worst = std::max(worst, off(coupling.block(0, 1)));
+    worstMean = std::max(worstMean, off(meanCompliance(stiffness, first, second)));
+  }
+  EXPECT_LE(worst, 0.1);
+  EXPECT_GE(worstMean, 2 * worst);
 }
 
 TEST_F(PointCouplings, DoNotAllocate) {

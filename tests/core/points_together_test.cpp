@@ -16,20 +16,24 @@
 namespace palpate::test {
 namespace {
 
-std::shared_ptr<const SurfaceStiffness> meanStiffness(const TouchedBody& body, double edges) {
+std::shared_ptr<const SurfaceStiffness> stiffnessOf(
+    const TouchedBody& body, double edges,
+    DisplacementMeasure measure = DisplacementMeasure::Mean) {
   const PressureMasks masks(*body.mesh, body.greens->info().conditions, MaskShape::Linear,
                             edges * body.mesh->meanEdgeLength());
   return std::make_shared<SurfaceStiffness>(body.greens, body.mesh, masks,
-                                            StiffnessOptions{0, DisplacementMeasure::Mean});
+                                            StiffnessOptions{0, measure});
 }
 
 const TouchedBody& sphere() {
   static const TouchedBody body = touchedSphere(2, true);
   return body;
 }
-const std::shared_ptr<const SurfaceStiffness>& sphereStiffness() {
-  static const auto stiffness = meanStiffness(sphere(), 1.5);
-  return stiffness;
+const std::shared_ptr<const SurfaceStiffness>& sphereStiffness(
+    DisplacementMeasure measure = DisplacementMeasure::Mean) {
+  static const auto mean = stiffnessOf(sphere(), 1.5, DisplacementMeasure::Mean),
+                    vertex = stiffnessOf(sphere(), 1.5, DisplacementMeasure::Vertex);
+  return measure == DisplacementMeasure::Mean ? mean : vertex;
 }
 
 Eigen::Vector3d vertexNearestTo(const Eigen::Vector3d& place) {
@@ -110,7 +114,8 @@ class Probes {
  private:
   Eigen::Matrix3d coupling(const SlidingContact& i, const SlidingContact& j) const {
     if (i.force().isZero(0) || j.force().isZero(0)) return Eigen::Matrix3d::Zero();
-    return meanCompliance(stiffness_, i.point(), j.point());
+    return coupledCompliance({{stiffness_, 1}}, i.point(), i.servedStiffness(), j.point(),
+                             j.servedStiffness());
   }
   double largestNorm() {
     if (largestNorm_ == 0)
@@ -123,6 +128,9 @@ class Probes {
   double largestNorm_ = 0;
   Places last_;
 };
+
+/// The measure of stiffnesses, each of which points feel each other by.
+class PointsTogetherBy : public testing::TestWithParam<DisplacementMeasure> {};
 
 /// At vertices the stiffness is exact, and so the two patches are where they are held.
 TEST(PointsTogether, HoldTheirPatchesWhereTheyAre) {
@@ -155,8 +163,8 @@ TEST(PointsTogether, HoldTheirPatchesWhereTheyAre) {
   }
 }
 
-TEST(PointsTogether, AgreeWithADenseSolveOfAllBlocks) {
-  const auto& stiffness = sphereStiffness();
+TEST_P(PointsTogetherBy, AgreeWithADenseSolveOfAllBlocks) {
+  const auto& stiffness = sphereStiffness(GetParam());
   for (const int count : {2, 3, 5}) {
     Probes probes(stiffness, count, 50);
     Places out, in;
@@ -177,7 +185,9 @@ TEST(PointsTogether, AgreeWithADenseSolveOfAllBlocks) {
       for (int j = 0; j < count; ++j)
         compliance.block<3, 3>(3 * i, 3 * j) =
             i == j ? Eigen::Matrix3d(probes.touch.contact(i).servedStiffness().inverse())
-                   : meanCompliance(stiffness, probes.point(i), probes.point(j));
+                   : coupledCompliance({{stiffness, 1}}, probes.point(i),
+                                       probes.touch.contact(i).servedStiffness(), probes.point(j),
+                                       probes.touch.contact(j).servedStiffness());
     }
     const Eigen::VectorXd solved = compliance.partialPivLu().solve(asked);
     EXPECT_LE((served - solved).norm(), 1e-6 * solved.norm()) << count;
@@ -189,8 +199,8 @@ TEST(PointsTogether, AgreeWithADenseSolveOfAllBlocks) {
 }
 
 /// Both stick: there is one energy.
-TEST(PointsTogether, WhileTheyStickGiveBackAllOfTheirWork) {
-  Probes probes(sphereStiffness(), 2, 50);
+TEST_P(PointsTogetherBy, WhileTheyStickGiveBackAllOfTheirWork) {
+  Probes probes(sphereStiffness(GetParam()), 2, 50);
   const Places out = {{0, 0, 1.1}, {0.5, 0, 1.1}}, in = {{0, 0, 0.93}, {0.48, 0, 0.8}};
   probes.step(out);
   probes.move(in, 200);
@@ -207,9 +217,9 @@ TEST(PointsTogether, WhileTheyStickGiveBackAllOfTheirWork) {
   EXPECT_GT(largest, 0);
 }
 
-TEST(PointsTogether, GiveBackNoMoreThanIsStatedWhenTheySlide) {
+TEST_P(PointsTogetherBy, GiveBackNoMoreThanIsStatedWhenTheySlide) {
   for (const double friction : {0., 0.3}) {
-    Probes probes(sphereStiffness(), 2, friction);
+    Probes probes(sphereStiffness(GetParam()), 2, friction);
     const Places out = {{0, 0, 1.15}, {0.5, 0, 1.1}};
     probes.step(out);
     probes.move({{0, 0, 0.93}, {0.45, 0.1, 0.82}}, 200);
@@ -233,7 +243,7 @@ TEST(PointsTogether, FarApartFeelNothing) {
   const Shape shape = box({6, 1, 1}, {12, 2, 2});
   const TouchedBody bar = touchedBody(
       shape, fixedWhere(shape, [](const auto& x) { return std::abs(x.x() - 3) < 1.6; }), true);
-  const auto stiffness = meanStiffness(bar, 1);
+  const auto stiffness = stiffnessOf(bar, 1);
   const Places out = {{0.8, 0.4, 1.1}, {5.2, 0.6, 1.1}}, in = {{0.8, 0.4, 0.9}, {5.2, 0.6, 0.95}};
   Probes both(stiffness, 2, 0.3);
   both.step(out);
@@ -269,8 +279,8 @@ TEST(PointsTogether, DoNotTouchWhatAnotherHasPressedAway) {
   EXPECT_GT(alone.force(0).norm(), 0);
 }
 
-TEST(PointsTogether, PullTogetherWithTheirButtons) {
-  const auto& stiffness = sphereStiffness();
+TEST_P(PointsTogetherBy, PullTogetherWithTheirButtons) {
+  const auto& stiffness = sphereStiffness(GetParam());
   Probes probes(stiffness, 2, 0.3);
   const Places out = {{0, 0, 1.1}, {0.4, 0, 1.05}}, in = {{0, 0, 0.95}, {0.36, 0, 0.85}};
   probes.step(out);
@@ -287,8 +297,8 @@ TEST(PointsTogether, PullTogetherWithTheirButtons) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(probes.force(i), Eigen::Vector3d::Zero());
 }
 
-TEST(PointsTogether, StayFiniteAndInBoundsWhereverTheyGo) {
-  const auto& stiffness = sphereStiffness();
+TEST_P(PointsTogetherBy, StayFiniteAndInBoundsWhereverTheyGo) {
+  const auto& stiffness = sphereStiffness(GetParam());
   Probes probes(stiffness, 3, 0.4);
   for (int t = 0; t < 1500; ++t) {
     Places places;
@@ -304,9 +314,31 @@ TEST(PointsTogether, StayFiniteAndInBoundsWhereverTheyGo) {
   RecordProperty("most sweeps", probes.sweeps);
 }
 
+/// Two that press at one place share what one would bear, as near as definiteness lets them.
+TEST_P(PointsTogetherBy, AtOnePlaceBearTogetherWhatOneBears) {
+  const auto& stiffness = sphereStiffness(GetParam());
+  const Eigen::Vector3d out(0.1, 0.2, 1.1), in(0.08, 0.16, 0.88);
+  Probes alone(stiffness, 1, 0.3), both(stiffness, 2, 0.3);
+  alone.step({out});
+  alone.move({in}, 200);
+  both.step({out, out});
+  both.move({in, in}, 200);
+  both.move({in, in}, 50);
+  const Eigen::Vector3d sum = both.force(0) + both.force(1), one = alone.force(0);
+  EXPECT_LE((both.force(0) - both.force(1)).norm(), 1e-3 * one.norm());
+  EXPECT_LE((sum - one).norm(), 0.03 * one.norm());
+  EXPECT_NEAR(sum.norm() / one.norm(), 2 / (1 + PointCoupling::kLargestShare), 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Measures, PointsTogetherBy,
+                         testing::Values(DisplacementMeasure::Mean, DisplacementMeasure::Vertex),
+                         [](const auto& measure) {
+                           return measure.param == DisplacementMeasure::Mean ? "Mean" : "Vertex";
+                         });
+
 TEST(PointsTogether, GoOverToAnotherStiffnessWithoutAJump) {
   const auto& stiffness = sphereStiffness();
-  const auto other = meanStiffness(sphere(), 2.5);
+  const auto other = stiffnessOf(sphere(), 2.5);
   Probes probes(stiffness, 2, 50);
   const Places in = {{0, 0, 0.93}, {0.48, 0, 0.8}};
   probes.step({{0, 0, 1.1}, {0.5, 0, 1.1}});

@@ -39,6 +39,26 @@ Eigen::Matrix3d betweenMasks(const SurfaceStiffness& stiffness, int to, int from
   return sum;
 }
 
+/// The integral of the product of two vertices' masks, 1/m^2.
+double overlapOf(const SurfaceStiffness& stiffness, int to, int from) {
+  if (!isServed(stiffness, to) || !isServed(stiffness, from)) return 0;
+  const VertexMask &one = stiffness.mask(to), &other = stiffness.mask(from);
+  double sum = 0;
+  for (std::size_t m = 0; m < one.nodes.size(); ++m)
+    for (std::size_t n = 0; n < other.nodes.size(); ++n)
+      if (one.nodes[m] == other.nodes[n])
+        sum += stiffness.mesh().vertexAreas()[one.nodes[m]] * one.density[m] * other.density[n];
+  return sum;
+}
+
+/// The square root of a symmetric matrix, of its part that is positive semidefinite.
+Eigen::Matrix3d rootOf(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect((matrix + matrix.transpose()) / 2);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 /// L_i^T C L_j, what is felt of a force at the other point; zero without a stiffness.
 Eigen::Matrix3d scaledBy(const Eigen::Matrix3d& block, const Eigen::Matrix3d& first,
                          const Eigen::Matrix3d& second) {
@@ -65,13 +85,21 @@ void PointCoupling::setStiffness(const SurfaceStiffness& stiffness) noexcept {
     pair.corners[0].first = pair.corners[0].second = -1;
   }
   share_ = 0;
-  for (Point& point : points_) point.isChanged = true;
+  for (Point& point : points_) {
+    point.own[1] = point.own[0];
+    point.own[0].first = point.own[0].second = -1;
+    point.isChanged = true;
+    point.hasExcess = false;
+  }
 }
 
 void PointCoupling::setShare(double share) noexcept {
   if (share == share_) return;
   share_ = share;
-  for (Point& point : points_) point.isChanged = true;
+  for (Point& point : points_) {
+    point.isChanged = true;
+    point.hasExcess = false;
+  }
 }
 
 void PointCoupling::place(int point, const SurfacePoint& place,
@@ -80,42 +108,96 @@ void PointCoupling::place(int point, const SurfacePoint& place,
   if (changed.isPlaced && changed.place.triangle == place.triangle &&
       changed.place.barycentric == place.barycentric && changed.served == served)
     return;
-  changed = {true, true, place, served};
+  changed.isPlaced = changed.isChanged = true;
+  changed.place = place;
+  changed.served = served;
+  changed.hasExcess = false;
 }
 
-/// C_ij of one stiffness. Corners that the triangles before had as well keep their blocks.
-Eigen::Matrix3d PointCoupling::weighted(int version, Corners& corners, const Point& i,
-                                        const Point& j) noexcept {
+/// The blocks of one stiffness between the corners of two triangles. Corners that the triangles
+/// before had as well keep theirs.
+void PointCoupling::lookUp(int version, Corners& corners, const Point& i, const Point& j) noexcept {
+  if (corners.first == i.place.triangle && corners.second == j.place.triangle) return;
   const SurfaceStiffness& stiffness = *stiffness_[version];
   const auto& triangles = stiffness.mesh().triangles();
-  if (corners.first != i.place.triangle || corners.second != j.place.triangle) {
-    const Corners before = corners;
-    const auto find = [&](int triangle, int vertex) {
-      for (int k = 0; triangle >= 0 && k < 3; ++k)
-        if (triangles(k, triangle) == vertex) return k;
-      return -1;
-    };
-    for (int l = 0; l < 3; ++l)
-      for (int k = 0; k < 3; ++k) {
-        const int to = triangles(k, i.place.triangle), from = triangles(l, j.place.triangle);
-        const int row = find(before.first, to), column = find(before.second, from);
-        corners.blocks[3 * l + k] = row >= 0 && column >= 0 ? before.blocks[3 * column + row]
-                                                            : betweenMasks(stiffness, to, from);
-      }
-    corners.first = i.place.triangle;
-    corners.second = j.place.triangle;
-  }
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const Corners before = corners;
+  const auto find = [&](int triangle, int vertex) {
+    for (int k = 0; triangle >= 0 && k < 3; ++k)
+      if (triangles(k, triangle) == vertex) return k;
+    return -1;
+  };
   for (int l = 0; l < 3; ++l)
-    for (int k = 0; k < 3; ++k)
-      sum += i.place.barycentric[k] * j.place.barycentric[l] * corners.blocks[3 * l + k];
+    for (int k = 0; k < 3; ++k) {
+      const int here = 3 * l + k;
+      if (&i == &j && k < l) {  // symmetric
+        corners.blocks[here] = corners.blocks[3 * k + l].transpose();
+        corners.overlaps[here] = corners.overlaps[3 * k + l];
+        continue;
+      }
+      const int to = triangles(k, i.place.triangle), from = triangles(l, j.place.triangle);
+      const int row = find(before.first, to), column = find(before.second, from);
+      const bool isKnown = row >= 0 && column >= 0;
+      corners.blocks[here] =
+          isKnown ? before.blocks[3 * column + row] : betweenMasks(stiffness, to, from);
+      corners.overlaps[here] =
+          isKnown ? before.overlaps[3 * column + row] : overlapOf(stiffness, to, from);
+    }
+  corners.first = i.place.triangle;
+  corners.second = j.place.triangle;
+}
+
+/// Calls act with the weights of the corners, of both stiffnesses while one goes over to another.
+template <class Act>
+void PointCoupling::forCorners(const Point& i, const Point& j, const Act& act) const noexcept {
+  for (int version = 0; version < (share_ < 1 ? 2 : 1); ++version)
+    for (int l = 0; l < 3; ++l)
+      for (int k = 0; k < 3; ++k)
+        act(version, 3 * l + k,
+            (version == 0 ? share_ : 1 - share_) * i.place.barycentric[k] * j.place.barycentric[l]);
+}
+
+/// The mean displacement under the mask of one place by a unit force under that of another.
+Eigen::Matrix3d PointCoupling::mean(std::array<Corners, 2>& corners, const Point& i,
+                                    const Point& j) noexcept {
+  for (int version = 0; version < (share_ < 1 ? 2 : 1); ++version)
+    lookUp(version, corners[version], i, j);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  forCorners(i, j, [&](int version, int corner, double weight) {
+    sum += weight * corners[version].blocks[corner];
+  });
   return sum;
 }
 
-void PointCoupling::renew(Pair& pair, const Point& i, const Point& j) noexcept {
-  pair.block = weighted(0, pair.corners[0], i, j);
-  if (share_ < 1)
-    pair.block = share_ * pair.block + (1 - share_) * weighted(1, pair.corners[1], i, j);
+/// The integral of the product of two masks, 1/m^2, whose corners were looked up.
+double PointCoupling::overlap(const std::array<Corners, 2>& corners, const Point& i,
+                              const Point& j) const noexcept {
+  double sum = 0;
+  forCorners(i, j, [&](int version, int corner, double weight) {
+    sum += weight * corners[version].overlaps[corner];
+  });
+  return sum;
+}
+
+/// sqrt(D) of a point.
+const Eigen::Matrix3d& PointCoupling::excessOf(Point& point) noexcept {
+  if (!point.hasExcess) {
+    const Eigen::Matrix3d own = mean(point.own, point, point);
+    const Eigen::LLT<Eigen::Matrix3d> served(point.served);
+    point.excess = served.info() == Eigen::Success
+                       ? rootOf(served.solve(Eigen::Matrix3d::Identity()) - own)
+                       : Eigen::Matrix3d::Zero();
+    point.hasExcess = true;
+  }
+  return point.excess;
+}
+
+void PointCoupling::renew(Pair& pair, Point& i, Point& j) noexcept {
+  pair.block = mean(pair.corners, i, j);
+  if (const double between = overlap(pair.corners, i, j); between > 0) {
+    const Eigen::Matrix3d &first = excessOf(i), &second = excessOf(j);
+    pair.block +=
+        between * between / (overlap(i.own, i, i) * overlap(j.own, j, j)) * first * second;
+  }
   pair.scaled = scaledBy(pair.block, i.served, j.served);
 }
 
@@ -126,7 +208,7 @@ void PointCoupling::update() noexcept {
   const int count = static_cast<int>(points_.size());
   for (int j = 1; j < count; ++j)
     for (int i = 0; i < j; ++i) {
-      const Point &first = points_[i], &second = points_[j];
+      Point &first = points_[i], &second = points_[j];
       if (first.isPlaced && second.isPlaced && (first.isChanged || second.isChanged))
         renew(pair(i, j), first, second);
     }

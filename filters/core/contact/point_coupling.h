@@ -18,9 +18,17 @@ namespace palpate {
 ///     C_ij = sum over nodes m, n of a_m rho^i_m Xi_mn rho^j_n,
 /// with rho^i the barycentric average of the masks of the corners of i's triangle: C_ij f_j is the
 /// mean displacement under the mask of i, on which the force of i does its work. C_ji = C_ij^T, so
-/// that all forces are those of one energy. (Where stiffnesses are by the vertices' displacements
-/// the coupling is so all the same: what is between points is smooth under a mask.) A corner that
-/// is fixed neither moves nor presses.
+/// that all forces are those of one energy. A corner that is fixed neither moves nor presses.
+///
+/// A point itself yields by K_i^-1, which is D_i more than by the mean under its own mask, C_ii:
+/// stiffnesses are by the vertices' displacements. As far as masks overlap, the other point's
+/// surface yields by that, too: s_ij^2 sqrt(D_i) sqrt(D_j) is added to C_ij, with
+///     s_ij = <rho^i, rho^j> / |rho^i| |rho^j|, by area.
+/// So two points at one place yield as one does, and all together have a positive semidefinite
+/// compliance, a sum of two Gram matrices (products of the entries of such are such, by Schur). The
+/// square is what comes nearest to the displacement of one point's vertex under the mask of
+/// another: on a sphere within 10 % at all distances, where the mean alone is off by 20 % at small
+/// ones.
 ///
 /// Points that press each other's masks can be less stiff together than interpolated stiffnesses
 /// tell. So that the compliance of all, K_i^-1 and these blocks, stays positive definite, all
@@ -62,16 +70,20 @@ class PointCoupling {
   Eigen::Matrix3d block(int i, int j) noexcept;
 
  private:
+  /// Between the corners of two triangles.
+  struct Corners {
+    int first = -1, second = -1;  ///< triangles
+    std::array<Eigen::Matrix3d, 9> blocks;
+    std::array<double, 9> overlaps;  ///< of the corners' masks, 1/m^2
+  };
   /// A point, and whether it has changed since its blocks were made.
   struct Point {
     bool isPlaced = false, isChanged = false;
     SurfacePoint place{-1, Eigen::Vector3d::Zero()};
     Eigen::Matrix3d served = Eigen::Matrix3d::Zero();
-  };
-  /// Between the corners of two triangles.
-  struct Corners {
-    int first = -1, second = -1;  ///< triangles
-    std::array<Eigen::Matrix3d, 9> blocks;
+    std::array<Corners, 2> own;  ///< its corners among each other, as a Pair's
+    Eigen::Matrix3d excess;      ///< sqrt(D), where masks overlap
+    bool hasExcess = false;      ///< whether that is up to date
   };
   struct Pair {
     std::array<Corners, 2> corners;  ///< of the stiffness set last, and of the one before
@@ -82,8 +94,14 @@ class PointCoupling {
   Pair& pair(int i, int j) noexcept { return pairs_[j * (j - 1) / 2 + i]; }
   void update() noexcept;
   double leastEigenvalue() noexcept;
-  void renew(Pair& pair, const Point& i, const Point& j) noexcept;
-  Eigen::Matrix3d weighted(int version, Corners& corners, const Point& i, const Point& j) noexcept;
+  void renew(Pair& pair, Point& i, Point& j) noexcept;
+  void lookUp(int version, Corners& corners, const Point& i, const Point& j) noexcept;
+  Eigen::Matrix3d mean(std::array<Corners, 2>& corners, const Point& i, const Point& j) noexcept;
+  template <class Act>
+  void forCorners(const Point& i, const Point& j, const Act& act) const noexcept;
+  double overlap(const std::array<Corners, 2>& corners, const Point& i,
+                 const Point& j) const noexcept;
+  const Eigen::Matrix3d& excessOf(Point& point) noexcept;
 
   std::array<const SurfaceStiffness*, 2> stiffness_;  ///< set last, and the one before
   double share_ = 1;

@@ -253,9 +253,9 @@ class Planner {
 
   static constexpr double kMeshVertex = 7 * kNumber + 2 * sizeof(int);  ///< bytes of a SurfaceMesh
   static constexpr double kMeshTriangle = 4 * kNumber + 6 * sizeof(int);
-  static constexpr double kPairBytes = 20 * kNumber * kBlock;  ///< corners, now and before
-  static constexpr double kPointBytes = 800;                   ///< its state, to take ticks back
-  static constexpr double kAllocation = 12;  ///< bytes that a block of heap memory costs besides
+  static constexpr double kPairBytes = 22 * kNumber * kBlock;  ///< corners, now and before
+  static constexpr double kPointBytes = 2300;  ///< its state, to take ticks back, corners
+  static constexpr double kAllocation = 12;    ///< bytes that a block of heap memory costs besides
   static constexpr double kLoadBytes = 2 * sizeof(int) + sizeof(Eigen::Vector3d);
 
   const Scene& scene_;
