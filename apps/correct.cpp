@@ -15,6 +15,7 @@
 #include "commands.h"
 #include "finite_check.h"
 #include "measurement_options.h"
+#include "report/identification_page.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -26,6 +27,7 @@ struct Options {
   int modes = 0, folds = 5;
   double smoothing = 0;
   bool keepsOutliers = false;
+  ReportOption report;
 };
 
 void addOptions(CLI::App& command, Options& o) {
@@ -48,6 +50,7 @@ void addOptions(CLI::App& command, Options& o) {
       ->capture_default_str();
   command.add_flag("--keep-outliers", o.keepsOutliers,
                    "Believe displacements that contradict the rest, too");
+  o.report.addTo(command, "what was found and how it fits");
   command.footer(
       "The table is that of `palpate identify`. The material should be identified first, and what\n"
       "it does not explain corrected then:\n"
@@ -92,6 +95,8 @@ void addCorrect(CLI::App& program) {
     filter->SetLeaveOutOutliers(!options->keepsOutliers);
     const auto model = run(filter);
     writeSurface(model, options->output);
+    options->report.write(
+        [&](const RunDescription& run) { return identificationPage(model, nullptr, run); });
     print(model);
     printWarnings(model);
   });

@@ -23,6 +23,7 @@
 #include "commands.h"
 #include "finite_check.h"
 #include "measurement_options.h"
+#include "report/identification_page.h"
 #include "support_options.h"
 #include "terminal.h"
 #include "whole_file.h"
@@ -36,6 +37,7 @@ struct Options {
   std::string input, output, method = "bem", loss = "cauchy", field;
   MeasurementOptions measurements;
   SupportOptions support;
+  ReportOption report;
   double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4;
   std::vector<double> poissonRange;
   bool yieldingSupport = false, isRegistered = false, noEstimate = false;
@@ -138,6 +140,7 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(CLI::Range(0, 100));
   command.add_flag("--no-estimate", o.noEstimate, "Do not estimate the model's own error");
   command.add_option("--threads", o.threads, "0 for all cores")->check(CLI::Range(0, 1024));
+  o.report.addTo(command, "what was found, how sure it is and how it fits");
   command.footer(
       "A table has a line of names, then a line for each displacement, in SI units or as told:\n"
       "  probe, contact_vertex (or contact_x .. _z), radius, force_x .. _z, vertex (or x, y, z),\n"
@@ -321,6 +324,9 @@ void addIdentify(CLI::App& program) {
     auto* const field = vtkUnstructuredGrid::SafeDownCast(ofField->GetOutputDataObject(1));
     if (isField) writeField(field, options->field);
     writeSurface(model, options->output);
+    options->report.write([&](const RunDescription& run) {
+      return identificationPage(model, isField ? field : nullptr, run);
+    });
     printModel(model, isPolydata(options->measurements.table) ? "tuples" : "lines");
     if (isField) printField(model, field);
     printWarnings(model);

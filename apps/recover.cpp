@@ -16,6 +16,7 @@
 #include "finite_check.h"
 #include "measurement_options.h"
 #include "picture/picture.h"
+#include "report/identification_page.h"
 #include "terminal.h"
 
 namespace palpate::app {
@@ -28,6 +29,7 @@ struct Options {
   int samples = 50, seed = 1;
   bool firmSupport = false;
   PictureOptions picture;
+  ReportOption report;
 };
 
 void addOptions(CLI::App& command, Options& o) {
@@ -69,6 +71,7 @@ void addOptions(CLI::App& command, Options& o) {
       ->capture_default_str();
   command.add_option("--seed", o.seed, "Of these")->capture_default_str();
   o.picture.addTo(command, "how the surface moves and the pressures on it");
+  o.report.addTo(command, "what was found, how sure it is and how it fits");
   command.footer(
       "A table has a line of names, then a line for each displacement: vertex (or x, y, z, at "
       "rest),\n"
@@ -170,6 +173,7 @@ void addRecover(CLI::App& program) {
     filter->SetPlaceTolerance(options->reading.placeTolerance);
     const auto model = run(filter);
     writeSurface(model, options->output);
+    options->report.write([&](const RunDescription& run) { return recoveryPage(model, run); });
     if (!options->picture.path.empty()) draw(model, options->picture);
     printContacts(model);
     printFit(model);

@@ -74,7 +74,7 @@ Drawing drawingOf(const AccuracyStudy& study) {
   Drawing drawing;
   drawing.height = kPlotHeight;
   for (bool isPrecompute : {true, false}) {
-    LogarithmicPlot plot{isPrecompute ? "precomputation" : "one query",
+    Plot plot{isPrecompute ? "precomputation" : "one query",
                          std::string(isPrecompute ? "seconds to precompute" : "seconds a query") +
                              (study.clock == "cpu" ? " (processor)" : ""),
                          "error (%)",

@@ -4,7 +4,6 @@
 // The drawing library: VTK's rendering lives here and nowhere else.
 
 #include <vtkActor.h>
-#include <vtkArrowSource.h>
 #include <vtkCamera.h>
 #include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
@@ -30,6 +29,7 @@
 #include <stdexcept>
 
 #include "picture/colour_map.h"
+#include "picture/draw_glyphs.h"
 #include "picture/picture.h"
 #include "picture/png.h"
 #include "picture/virtual_display.h"
@@ -57,21 +57,11 @@ vtkSmartPointer<vtkPolyData> shapeOf(const View& view) {
   return vtkPolyData::SafeDownCast(warp->GetOutput());
 }
 
-/// Colours and their range for a view: an array by viridis, or fixed against free.
-vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* array) {
+/// Viridis over a range.
+vtkSmartPointer<vtkScalarsToColors> viridisOver(std::array<double, 2> range, bool logarithmic) {
   vtkNew<vtkColorTransferFunction> colours;
-  if (view.colourBy.empty()) {
-    colours->AddRGBPoint(0, kFree[0], kFree[1], kFree[2]);
-    colours->AddRGBPoint(1, kFixed[0], kFixed[1], kFixed[2]);
-    return colours;
-  }
   for (int i = 0; i < 9; ++i)
     colours->AddRGBPoint(i / 8.0, kViridis[i][0], kViridis[i][1], kViridis[i][2]);
-  double range[2] = {0, 1};
-  if (view.range)
-    std::copy_n(view.range->data(), 2, range);
-  else
-    array->GetRange(range, array->GetNumberOfComponents() > 1 ? -1 : 0);
   if (!(range[1] > range[0])) range[1] = range[0] + 1e-12 + 1e-6 * std::abs(range[0]);
   vtkNew<vtkLookupTable> table;
   table->SetNumberOfTableValues(256);
@@ -79,11 +69,26 @@ vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* ar
     const double* colour = colours->GetColor(i / 255.0);
     table->SetTableValue(i, colour[0], colour[1], colour[2]);
   }
-  table->SetTableRange(range);
+  table->SetTableRange(range.data());
   table->SetNanColor(kNothing[0], kNothing[1], kNothing[2], 1);
-  if (view.logarithmic) table->SetScaleToLog10();
-  if (array->GetNumberOfComponents() > 1) table->SetVectorModeToMagnitude();
+  if (logarithmic) table->SetScaleToLog10();
   return table;
+}
+
+/// Colours and their range for a view's surface: an array by viridis, or fixed against free.
+vtkSmartPointer<vtkScalarsToColors> coloursOf(const View& view, vtkDataArray* array) {
+  if (view.colourBy.empty()) {
+    vtkNew<vtkColorTransferFunction> colours;
+    colours->AddRGBPoint(0, kFree[0], kFree[1], kFree[2]);
+    colours->AddRGBPoint(1, kFixed[0], kFixed[1], kFixed[2]);
+    return colours;
+  }
+  const bool isVector = array->GetNumberOfComponents() > 1;
+  std::array<double, 2> range{0, 1};
+  array->GetRange(range.data(), isVector ? -1 : 0);
+  const auto colours = viridisOver(view.range.value_or(range), view.logarithmic);
+  if (isVector) colours->SetVectorModeToMagnitude();
+  return colours;
 }
 
 constexpr int kSharedBarPixels = 150;  ///< what a bar that all views share takes of the width
@@ -136,7 +141,7 @@ vtkSmartPointer<vtkScalarsToColors> addSurface(vtkRenderer* renderer, const View
   mapper->SetInputConnection(normals->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeVisibility(view.hasEdges);
   actor->GetProperty()->SetEdgeColor(0.25, 0.25, 0.28);
   actor->GetProperty()->SetLineWidth(0.5);
   actor->GetProperty()->SetAmbient(0.25);
@@ -174,37 +179,65 @@ double middleOf(const Picture& picture) {
   return picture.sharesBar ? 0.5 : 0.42;
 }
 
-/// One camera for all views, so that they can be compared: it holds what they show in the left of a
-/// viewport, beside the colour bar.
-vtkSmartPointer<vtkCamera> cameraFor(const Picture& picture, double aspect) {
-  // Of the viewport: middle and extent.
-  const double left = middleOf(picture), width = picture.sharesBar ? 0.9 : 0.74, height = 0.78;
-  const Eigen::Vector3d towards = Eigen::Vector3d(picture.towardsViewer.data()).stableNormalized();
+/// Right, up and towards the viewer.
+Eigen::Matrix3d axesFor(const std::array<double, 3>& towardsViewer) {
+  const Eigen::Vector3d towards = Eigen::Vector3d(towardsViewer.data()).stableNormalized();
   const bool fromAbove = std::abs(towards.z()) > 0.95;
   const Eigen::Vector3d upwards = fromAbove ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
-  Eigen::Matrix3d axes;  // right, up, towards the viewer
+  Eigen::Matrix3d axes;
   axes << upwards.cross(towards).normalized(), towards.cross(upwards.cross(towards)).normalized(),
       towards;
+  return axes;
+}
+
+/// Of what a view shows, along axes.
+Eigen::AlignedBox3d boxOf(const View& view, const Eigen::Matrix3d& axes) {
   Eigen::AlignedBox3d box;
+  const auto shape = shapeOf(view);
+  for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i)
+    box.extend(axes.transpose() * Eigen::Vector3d(shape->GetPoint(i)));
+  for (const Glyph& glyph : view.glyphs)
+    box.extend(axes.transpose() * Eigen::Vector3d(glyph.place.data()));
+  return box;
+}
+
+/// A camera a view, to one scale, so that they can be compared; those that have no direction of
+/// their own are placed alike. It holds what they show in the left of a viewport, beside the colour
+/// bar.
+std::vector<vtkSmartPointer<vtkCamera>> camerasFor(const Picture& picture, double aspect) {
+  // Of the viewport: middle and extent.
+  const double left = middleOf(picture), width = picture.sharesBar ? 0.9 : 0.74, height = 0.78;
+  std::vector<Eigen::Matrix3d> axes;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  Eigen::AlignedBox3d common;
   for (const View& view : picture.views) {
-    const auto shape = shapeOf(view);
-    for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i)
-      box.extend(axes.transpose() * Eigen::Vector3d(shape->GetPoint(i)));
+    axes.push_back(axesFor(view.towardsViewer.value_or(picture.towardsViewer)));
+    boxes.push_back(boxOf(view, axes.back()));
+    if (!view.towardsViewer) common.extend(boxes.back());
   }
-  const Eigen::Vector3d half = box.sizes() / 2;
-  const double depth = half.norm();
-  const double scale = std::max({half.y() / height, half.x() / (width * aspect), 1e-300});
-  const Eigen::Vector3d centre =
-      axes * (box.center() + Eigen::Vector3d((1 - 2 * left) * scale * aspect, 0, 0));
-  const Eigen::Vector3d eye = centre + 4 * depth * towards;
-  vtkNew<vtkCamera> camera;
-  camera->SetFocalPoint(centre.data());
-  camera->SetPosition(eye.data());
-  camera->SetViewUp(upwards.data());
-  camera->ParallelProjectionOn();
-  camera->SetParallelScale(scale);
-  camera->SetClippingRange(depth, 8 * depth);
-  return camera;
+  double scale = 1e-300, depth = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!picture.views[i].towardsViewer) boxes[i] = common;
+    const Eigen::Vector3d half = boxes[i].sizes() / 2;
+    scale = std::max({scale, half.y() / height, half.x() / (width * aspect)});
+    depth = std::max(depth, half.norm());
+  }
+  std::vector<vtkSmartPointer<vtkCamera>> cameras;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Eigen::Vector3d towards = axes[i].col(2), upwards = axes[i].col(1);
+    const Eigen::Vector3d centre =
+        axes[i] * (boxes[i].center() + Eigen::Vector3d((1 - 2 * left) * scale * aspect, 0, 0));
+    const Eigen::Vector3d eye = centre + 4 * depth * towards;
+    vtkNew<vtkCamera> camera;
+    camera->SetFocalPoint(centre.data());
+    camera->SetPosition(eye.data());
+    camera->SetViewUp(upwards.data());
+    camera->ParallelProjectionOn();
+    camera->SetParallelScale(scale);
+    camera->SetClippingRange(depth, 8 * depth);
+    cameras.emplace_back(camera);
+  }
+  return cameras;
 }
 
 void draw(const Picture& picture, const std::string& path) {
@@ -215,7 +248,7 @@ void draw(const Picture& picture, const std::string& path) {
   window->SetSize(picture.width, picture.height);
   const double count = static_cast<double>(picture.views.size());
   const double right = picture.sharesBar ? 1 - double(kSharedBarPixels) / picture.width : 1;
-  const auto camera = cameraFor(picture, right * picture.width / count / picture.height);
+  const auto cameras = camerasFor(picture, right * picture.width / count / picture.height);
   const auto addRenderer = [&](double from, double to) {
     vtkNew<vtkRenderer> renderer;
     renderer->SetViewport(from, 0, to, 1);
@@ -227,10 +260,15 @@ void draw(const Picture& picture, const std::string& path) {
   for (std::size_t i = 0; i < picture.views.size(); ++i) {
     const View& view = picture.views[i];
     vtkRenderer* renderer = addRenderer(right * i / count, right * (i + 1) / count);
-    const auto colours = addSurface(renderer, view);
+    vtkSmartPointer<vtkScalarsToColors> colours = addSurface(renderer, view);
     addTitle(renderer, view.title, middleOf(picture));
-    renderer->SetActiveCamera(camera);
-    if (view.colourBy.empty()) continue;
+    renderer->SetActiveCamera(cameras[i]);
+    if (!view.glyphs.empty()) {
+      if (view.colourBy.empty())
+        colours = viridisOver(view.range.value_or(std::array<double, 2>{0, 1}), view.logarithmic);
+      addGlyphs(renderer, view, colours);
+    }
+    if (view.colourBy.empty() && view.glyphs.empty()) continue;
     if (!picture.sharesBar)
       addBar(renderer, colours, view.barTitle, 0.83, 0.13);
     else if (i == 0)

@@ -24,6 +24,7 @@ img { max-width: 100%; height: auto; display: block; } .row { display: flex; ali
 th { text-align: right; font-weight: 600; border-bottom: 2px solid #22222a; vertical-align: bottom; }
 td { text-align: right; border-bottom: 1px solid #d9d9e0; font-variant-numeric: tabular-nums; }
 th, td { padding: .3rem .7rem; } th:first-child, td:first-child { text-align: left; }
+.pairs thead { display: none; } .pairs td { text-align: left; }
 @media print { body { max-width: none; } figure, table { break-inside: avoid; } }
 )";
 

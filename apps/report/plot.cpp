@@ -12,17 +12,26 @@ namespace palpate::app {
 namespace {
 
 constexpr const char *kInk = "#22222a", *kGrid = "#e2e2e8";
-constexpr double kMark = 5, kRing = 8;
+constexpr double kRing = 8, kLegendMark = 4;
 constexpr double kManyDecades = 3;  ///< beyond, ticks are powers of ten alone
+constexpr double kLetter = 8;       ///< width of a label's letter, pixels
 
-/// A logarithmic axis between two places of the drawing.
+/// An axis between two places of the drawing.
 struct Axis {
   double low, high, from, to;
+  bool isLogarithmic;
   double at(double value) const {
-    return from + (to - from) * std::log(value / low) / std::log(high / low);
+    const double share =
+        isLogarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+    return from + (to - from) * share;
   }
+  std::vector<double> ticks() const { return isLogarithmic ? decimalTicks() : evenTicks(); }
+  /// What it has a place for.
+  bool shows(double value) const { return std::isfinite(value) && (!isLogarithmic || value > 0); }
+
+ private:
   /// 1, 2 and 5 times powers of ten; fewer where there would be too many.
-  std::vector<double> ticks() const {
+  std::vector<double> decimalTicks() const {
     const double decades = std::log10(high / low);
     const int step = static_cast<int>(std::ceil(decades / 9));
     std::vector<double> values;
@@ -35,30 +44,79 @@ struct Axis {
       }
     return values;
   }
+  /// Some six, a round number apart.
+  std::vector<double> evenTicks() const {
+    const double wished = (high - low) / 6, power = std::pow(10, std::floor(std::log10(wished)));
+    const double digit = wished / power;
+    const double step = power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+    std::vector<double> values;
+    for (double count = std::ceil(low / step); count * step <= high; ++count)
+      values.push_back(count == 0 ? 0 : count * step);
+    return values;
+  }
 };
 
-/// What a logarithm has a place for.
-bool isShown(double value) {
-  return value > 0 && std::isfinite(value);
-}
-
 /// Over what is shown.
-Axis axisOf(const std::vector<Series>& all, bool isX, double from, double to) {
-  double low = 1e300, high = 0;
-  for (const Series& series : all)
-    for (double value : isX ? series.x : series.y) {
-      if (!isShown(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
+Axis axisOver(const std::vector<const std::vector<double>*>& all, bool isLogarithmic, double from,
+              double to) {
+  Axis axis{1e300, -1e300, from, to, isLogarithmic};
+  for (const std::vector<double>* values : all)
+    for (double value : *values) {
+      if (!axis.shows(value)) continue;
+      axis.low = std::min(axis.low, value);
+      axis.high = std::max(axis.high, value);
     }
-  if (!(high > 0)) low = high = 1;
-  const double margin = std::max(1.2, std::pow(high / low, 0.05));
-  return {low / margin, high * margin, from, to};
+  if (axis.high < axis.low) axis.low = axis.high = 1;
+  if (isLogarithmic) {
+    const double margin = std::max(1.2, std::pow(axis.high / axis.low, 0.05));
+    axis.low /= margin;
+    axis.high *= margin;
+    return axis;
+  }
+  const double span = axis.high - axis.low,
+               margin = span > 0 ? 0.05 * span : std::max(std::abs(axis.low), 1e-12);
+  axis.low -= margin;
+  axis.high += margin;
+  return axis;
 }
 
-void addAxes(Drawing& drawing, const Axis& x, const Axis& y, const LogarithmicPlot& plot) {
+std::vector<const std::vector<double>*> valuesOf(const Plot& plot, bool isX) {
+  std::vector<const std::vector<double>*> all;
+  for (const Series& series : plot.series) {
+    const bool hasEqualAxes = plot.axes == Plot::Axes::Equal;
+    if (isX || hasEqualAxes) all.push_back(&series.x);
+    if (!isX || hasEqualAxes) all.push_back(&series.y);
+  }
+  return all;
+}
+
+Axis xAxisOf(const Plot& plot, double from, double to) {
+  if (plot.axes == Plot::Axes::Named)
+    return {0.5, static_cast<double>(plot.names.size()) + 0.5, from, to, false};
+  return axisOver(valuesOf(plot, true), plot.axes == Plot::Axes::Logarithmic, from, to);
+}
+
+Axis yAxisOf(const Plot& plot, double from, double to) {
+  return axisOver(valuesOf(plot, false), plot.axes == Plot::Axes::Logarithmic, from, to);
+}
+
+/// Names at their numbers; some are left out where all would not fit.
+void addNames(Drawing& drawing, const Axis& x, double y, const std::vector<std::string>& names) {
+  std::size_t longest = 1;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  const double each = std::abs(x.to - x.from) / static_cast<double>(names.size());
+  const auto step = static_cast<std::size_t>(
+      std::ceil((kLetter * static_cast<double>(longest) + kLetter) / each));
+  for (std::size_t i = 0; i < names.size(); i += step)
+    drawing.labels.push_back(
+        {x.at(static_cast<double>(i) + 1), y + 20, names[i], Drawing::Anchor::Middle});
+}
+
+void addAxes(Drawing& drawing, const Axis& x, const Axis& y, const Plot& plot) {
   using Anchor = Drawing::Anchor;
-  for (double value : x.ticks()) {
+  const bool isNamed = plot.axes == Plot::Axes::Named;
+  if (isNamed) addNames(drawing, x, y.from, plot.names);
+  for (double value : isNamed ? std::vector<double>() : x.ticks()) {
     drawing.lines.push_back({{{x.at(value), y.from}, {x.at(value), y.to}}, kGrid});
     drawing.labels.push_back({x.at(value), y.from + 20, number(value), Anchor::Middle});
   }
@@ -78,7 +136,7 @@ void addAxes(Drawing& drawing, const Axis& x, const Axis& y, const LogarithmicPl
 
 Drawing::Mark markOf(const Series& series, std::size_t i, double x, double y) {
   if (series.style == Series::Style::Rings) return {x, y, kRing, series.colour, true};
-  return {x, y, kMark, series.colour, !series.isHollow.empty() && series.isHollow[i]};
+  return {x, y, series.radius, series.colour, !series.isHollow.empty() && series.isHollow[i]};
 }
 
 bool hasLine(const Series& series) {
@@ -90,11 +148,15 @@ bool hasMarks(const Series& series) {
   return series.style != Series::Style::Line && series.style != Series::Style::Dashed;
 }
 
+bool isAllHollow(const Series& series) {
+  return std::all_of(series.isHollow.begin(), series.isHollow.end(), [](bool is) { return is; });
+}
+
 void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis& y) {
   const bool isDashed = series.style == Series::Style::Dashed;
   Drawing::Line line{{}, series.colour, 1.5, isDashed};
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!isShown(series.x[i]) || !isShown(series.y[i])) continue;
+    if (!x.shows(series.x[i]) || !y.shows(series.y[i])) continue;
     const double px = x.at(series.x[i]), py = y.at(series.y[i]);
     line.points.push_back({px, py});
     if (hasMarks(series)) drawing.marks.push_back(markOf(series, i, px, py));
@@ -108,9 +170,9 @@ void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis
 
 }  // namespace
 
-void addPlot(Drawing& drawing, const LogarithmicPlot& plot, double left, double top) {
-  const Axis x = axisOf(plot.series, true, left + 84, left + plot.width - plot.legendWidth);
-  const Axis y = axisOf(plot.series, false, top + plot.height - 60, top + 34);
+void addPlot(Drawing& drawing, const Plot& plot, double left, double top) {
+  const Axis x = xAxisOf(plot, left + 84, left + plot.width - plot.legendWidth);
+  const Axis y = yAxisOf(plot, top + plot.height - 60, top + 34);
   addAxes(drawing, x, y, plot);
   double row = y.to + 10;
   for (const Series& series : plot.series) {
@@ -123,14 +185,15 @@ void addPlot(Drawing& drawing, const LogarithmicPlot& plot, double left, double 
                                series.style == Series::Style::Dashed});
     if (hasMarks(series)) {
       drawing.marks.push_back(markOf(series, 0, x.to + 22, row));
-      if (!series.isHollow.empty()) drawing.marks.back().isHollow = false;
+      drawing.marks.back().radius = std::max(drawing.marks.back().radius, kLegendMark);
+      drawing.marks.back().isHollow = drawing.marks.back().isHollow && isAllHollow(series);
     }
     drawing.labels.push_back({x.to + 40, row + 4, series.name});
     row += 22;
   }
 }
 
-std::string inlineSvg(const LogarithmicPlot& plot) {
+std::string inlineSvg(const Plot& plot) {
   Drawing drawing;
   drawing.width = plot.width;
   drawing.height = plot.height;

@@ -14,19 +14,14 @@
 #include "mesh/surface_mesh.h"
 #include "picture/picture.h"
 #include "report/html.h"
+#include "report/page_parts.h"
 #include "report/plot.h"
 #include "report/stiffness_study.h"
-#include "report/temporary_picture.h"
 
 namespace palpate::app {
 namespace {
 
 using Range = std::array<double, 2>;
-
-/// Numbers of a table: three digits, a dash for none.
-std::string cell(double value) {
-  return std::isnan(value) ? "–" : number(value, 3);
-}
 
 /// The middle of all values of a point array of several surfaces, from `low` to `high` of them.
 Range rangeOf(const std::vector<std::pair<vtkPolyData*, const char*>>& fields, double low,
@@ -42,12 +37,6 @@ Range rangeOf(const std::vector<std::pair<vtkPolyData*, const char*>>& fields, d
   std::sort(values.begin(), values.end());
   const auto at = [&](double share) { return values[std::lround(share * (values.size() - 1))]; };
   return {at(low), at(high)};
-}
-
-std::string drawn(Picture picture, const std::string& description) {
-  const TemporaryPicture file;
-  drawPicture(picture, file.path());
-  return html::picture(file.path(), description);
 }
 
 /// What colours a view, shared by all that are compared.
@@ -173,8 +162,7 @@ std::string pullPicture(const Pulls& pulls, const Pull& pull, double most) {
   picture.width = 150 + 300 * static_cast<int>(pulls.surfaces.size());
   picture.height = 360;
   picture.sharesBar = true;
-  return "<figure>" + drawn(picture, pulls.description) + "<figcaption>" +
-         html::escaped(pulls.description) + "</figcaption></figure>\n";
+  return figure(drawn(picture, pulls.description), html::escaped(pulls.description));
 }
 
 /// Fig. 4: one force on every mesh, at a vertex and under the mask.

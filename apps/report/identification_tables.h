@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Palpate contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#pragma once
+
+#include <string>
+
+#include "report/measured_data.h"
+#include "report/report_option.h"
+
+class vtkPolyData;
+
+/// Parts of the pages of identifications, as HTML.
+namespace palpate::app {
+
+/// A component of a field array's tuple.
+double fieldComponentAt(vtkPolyData* model, const char* name, std::size_t tuple, int component = 0);
+
+/// Three numbers in brackets.
+std::string vectorIn(const Eigen::Vector3d& vector, int digits = 4);
+
+/// What was identified, with deviations and intervals.
+std::string parameterTable(vtkPolyData* model);
+/// Nothing for a single parameter.
+std::string correlationTable(vtkPolyData* model);
+std::string probeTable(const MeasuredData& data);
+/// @param rowWord  what counts the measurements: line, tuple.
+std::string outlierTable(const MeasuredData& data, const std::string& rowWord);
+/// Nothing where none was asked for.
+std::string proposalTable(vtkPolyData* model);
+/// Fingerprint, method, settings, seconds.
+std::string provenance(vtkPolyData* model, const RunDescription& run);
+/// Items of a list; nothing for none.
+std::string listOf(const std::vector<std::string>& sentences);
+
+/// The last part of a path.
+std::string fileName(const std::string& path);
+
+}  // namespace palpate::app
