@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 
 #include "greens/reciprocity.h"
@@ -20,6 +21,7 @@ namespace palpate {
 namespace {
 
 constexpr double kSmoothings[] = {10, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+constexpr double kRounding = 1e-9;  // of the largest displacement: no residual to judge by
 constexpr int kTrimmings = 3, kHalvings = 6;
 constexpr double kSolved = 1e-3, kRoughlySolved = 3e-2;  // of the equations' right-hand side
 
@@ -60,7 +62,10 @@ class CorrectionFit {
   void run() {
     smoothing = options_.smoothing > 0 ? options_.smoothing : chosenSmoothing();
     fit();
-    for (int i = 0; options_.leaveOutOutliers && i < kTrimmings && markOutliers(); ++i) fit();
+    for (int i = 0; options_.leaveOutOutliers && i < kTrimmings && markOutliers(); ++i) {
+      if (i == 0 && options_.smoothing == 0) smoothing = chosenSmoothing();
+      fit();
+    }
     if (options_.folds < 2) return;
     holdOutError = heldOut(smoothing, true, 2);
     priorHoldOutError = heldOut(0, true, 2);
@@ -74,8 +79,18 @@ class CorrectionFit {
   /// At most 1.
   Eigen::VectorXd weights() const { return table_.weightsWithout(outliers) / unit_; }
 
+  /// The most probable factor beside a correction that has its share in what was measured
+  /// (generalised least squares; Rasmussen and Williams, 2.7).
+  /// @param smoothing  0 without a correction.
+  double factorBeside(double smoothing, const Eigen::VectorXd& weights) const {
+    const double alone = table_.factorOf(prior_, weights);
+    if (smoothing == 0) return alone;
+    const Eigen::VectorXd pulls = correction_.pulls(prior_, weights, smoothing, kRoughlySolved);
+    return pulls.dot(table_.measured()) / pulls.dot(prior_);
+  }
+
   void fit() {
-    factor = table_.factorOf(prior_, weights());
+    factor = factorBeside(smoothing, weights());
     const Eigen::VectorXd left = table_.measured() - factor * prior_;
     pulls = correction_.pulls(left, weights(), smoothing, kSolved);
     residuals = left - correction_.seen(pulls);
@@ -91,7 +106,7 @@ class CorrectionFit {
     for (int fold = 0; fold < folds; ++fold) {
       const Eigen::VectorXd kept = table_.withoutFold(weights, fold, folds);
       if (kept.maxCoeff() == 0) continue;
-      const Eigen::VectorXd left = table_.measured() - table_.factorOf(prior_, kept) * prior_;
+      const Eigen::VectorXd left = table_.measured() - factorBeside(smoothing, kept) * prior_;
       Eigen::VectorXd wrong = left;
       if (smoothing > 0)
         wrong -= correction_.seen(
@@ -117,11 +132,29 @@ class CorrectionFit {
     return best;
   }
 
+  /// How much of noise's variance residuals still have, the rest being taken for correction: a mean
+  /// over components, by Hutchinson's estimate of a trace.
+  double noiseLeft() const {
+    const Eigen::VectorXd weights = this->weights();
+    std::mt19937 random(1);
+    Eigen::VectorXd signs = Eigen::VectorXd::Zero(weights.size());
+    for (Eigen::Index i = 0; i < signs.size(); ++i)
+      if (weights[i] > 0) signs[i] = (random() % 2 == 0 ? 1 : -1) / weights[i];
+    const Eigen::VectorXd left =
+        signs - correction_.seen(correction_.pulls(signs, weights, smoothing, kSolved));
+    const double share = (weights.array().square() * signs.array() * left.array()).sum() /
+                         static_cast<double>((weights.array() > 0).count());
+    return std::clamp(share, kSolved, 1.0);
+  }
+
   /// @return whether there are others now.
   bool markOutliers() {
     const Eigen::VectorXd weighted = table_.weights().cwiseProduct(residuals);
+    const double scale = std::max(
+        table_.medianDeviationOf(weighted) / std::sqrt(noiseLeft()),
+        kRounding * table_.weights().cwiseProduct(table_.measured()).cwiseAbs().maxCoeff());
     const std::vector<int> before = outliers;
-    outliers = table_.outliersOf(weighted / table_.medianDeviationOf(weighted));
+    outliers = table_.outliersOf(weighted / scale);
     return outliers != before;
   }
 

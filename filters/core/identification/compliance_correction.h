@@ -41,7 +41,8 @@ struct CorrectedGreensFunctions {
 /// the one that is most probable if its entries are independent normal: a Gaussian process on pairs
 /// of places, whose covariance are products of elastic responses (Rasmussen and Williams, Gaussian
 /// Processes for Machine Learning, 2006, 2.2 and 9.1). What was measured is kept but for noise, its
-/// mirror image by reciprocity likewise; between and beyond, C goes over to the prior smoothly. The
+/// mirror image by reciprocity likewise; between and beyond, C goes over to c C_0 smoothly. The
+/// factor is the most probable one beside X, by generalised least squares (2.7 there). The
 /// equations, one a measured component, are solved by conjugate gradients.
 ///
 /// Reactions of the support to forces stay the prior's, which are in balance with the forces.

@@ -44,6 +44,8 @@ double MeasuredValues::factorOf(const Eigen::VectorXd& displacements,
   const double along = (squares * displacements.array() * measured_.array()).sum(),
                size = (squares * displacements.array().square()).sum();
   if (!(size > 0)) refuse("nothing moves at the markers, whatever the material");
+  if ((squares * measured_.array().square()).sum() == 0)
+    refuse("nothing moved: no displacement is other than zero");
   if (!(along > 0))
     refuse(
         "the displacements are against the forces, which no material explains: check the signs "
