@@ -9,69 +9,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
+#include "support/inclusions.h"
 #include "support/refusals.h"
-#include "support/rigs.h"
-#include "support/solids.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr double kYoung = 2e4, kPoisson = 0.3;
-
-bool base(const Eigen::Vector3d& x) {
-  return x.z() < 1e-9;
-}
-
-/// A cube with a ball inside whose modulus is another by a factor.
-SolidProblem cube(int divisions, double factor, double poisson = kPoisson) {
-  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh();
-  std::vector<int> materials;
-  for (const auto& cell : mesh.tetrahedra().colwise())
-    materials.push_back(
-        (mesh.points()(Eigen::all, cell).rowwise().mean() - Eigen::Vector3d(0.5, 0.5, 0.6)).norm() <
-        0.37);
-  const ElasticModel model = makeModel(boundaryOf(mesh), base, 1, poisson);
-  return SolidProblem{model, SolidBody(model.mesh(), mesh,
-                                       {Elasticity(Material(kYoung, poisson)),
-                                        Elasticity(Material(kYoung * factor, poisson))},
-                                       materials)};
-}
-
-struct Prior {
-  SolidProblem problem;
-  std::shared_ptr<const GreensFunctions> greens;
-
-  explicit Prior(int divisions, double poisson = kPoisson)
-      : problem(cube(divisions, 1, poisson)), greens(problem.greens()) {}
-
-  CorrectedGreensFunctions corrected(const Measurements& m,
-                                     const CorrectionOptions& options = {}) const {
-    const RigSetup rig = setupOn(problem.model, m);
-    return correctCompliance(*greens, problem.model, rig.setup, m, options);
-  }
-  /// Relative error of the displacements that Green's functions predict.
-  double errorOf(const GreensFunctions& of, const Measurements& m) const {
-    const RigSetup rig = setupOn(problem.model, m);
-    const MeasuredResponse response(of, rig.setup, false);
-    double error = 0, size = 0;
-    for (int i = 0; i < rig.setup.markerCount(); ++i) {
-      const Eigen::Vector3d predicted =
-          response.rows().middleRows<3>(3 * i) * m.probes[m.displacements[i].probe].force;
-      error += (predicted - m.displacements[i].displacement).squaredNorm();
-      size += m.displacements[i].displacement.squaredNorm();
-    }
-    return std::sqrt(error / size);
-  }
-};
-
-RigSettings rigOf(int probes, double noise, unsigned seed = 1) {
-  RigSettings rig;
-  rig.radius = 0.3;
-  rig.probes = probes;
-  rig.noise = noise;
-  rig.seed = seed;
-  return rig;
-}
+using namespace inclusions;
 
 Eigen::MatrixXd complianceOf(const GreensFunctions& greens) {
   const std::vector<int> free = greens.info().conditions.freeNodes();
@@ -86,9 +30,9 @@ Eigen::MatrixXd complianceOf(const GreensFunctions& greens) {
 class HiddenBall : public ::testing::TestWithParam<double> {};
 
 TEST_P(HiddenBall, ProbesLeftOutArePredicted) {
-  const SolidProblem truth = cube(6, GetParam());
+  const SolidProblem truth = cubeWithBall(6, GetParam());
   const auto greens = truth.greens();
-  const Prior prior(5);
+  const CorrectionPrior prior(5);
   const Measurements held = measuredOn(greens, truth.model.mesh(), rigOf(20, 0, 77));
   const int third = static_cast<int>(prior.problem.model.conditions().freeNodes().size()) / 3;
   CorrectedGreensFunctions found =
@@ -118,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Factors, HiddenBall, ::testing::Values(0.1, 10));
 
 // Exact data of a body like the prior but for its modulus: a factor, and nothing to correct.
 TEST(ComplianceCorrection, AFactorIsFound) {
-  const Prior prior(4);
+  const CorrectionPrior prior(4);
   const auto softer =
       prior.greens->withYoungsModulus(prior.greens->info().material.youngsModulus() / 3);
   const Measurements m = measuredOn(softer, prior.problem.model.mesh(), rigOf(6, 0));
@@ -131,7 +75,7 @@ TEST(ComplianceCorrection, AFactorIsFound) {
 // What moves most at the markers, such as how the support yields, is the correction's, and draws
 // the prior's factor less away from what holds near the contacts: by itself it would be 1.29.
 TEST(ComplianceCorrection, TheFactorIsNotOfASupportThatYields) {
-  const Prior prior(4);
+  const CorrectionPrior prior(4);
   const auto greens = prior.problem.greens(allColumns(prior.problem.model));
   RigSettings rig = rigOf(20, 0.01);
   rig.foundationLength = 0.3 / kYoung;  // of the model whose modulus is 1
@@ -142,8 +86,8 @@ TEST(ComplianceCorrection, TheFactorIsNotOfASupportThatYields) {
 
 // A correction that follows its noise leaves residuals far below it: no reason to leave any out.
 TEST(ComplianceCorrection, SoundDisplacementsAreNotLeftOut) {
-  const SolidProblem truth = cube(5, 1, 0.45);
-  const Prior prior(4, -0.3);
+  const SolidProblem truth = cubeWithBall(5, 1, 0.45);
+  const CorrectionPrior prior(4, -0.3);
   for (unsigned seed : {1, 2, 3}) {
     const Measurements m = measuredOn(truth.greens(), truth.model.mesh(), rigOf(20, 0.01, seed));
     const CorrectedGreensFunctions found = prior.corrected(m);
@@ -154,9 +98,9 @@ TEST(ComplianceCorrection, SoundDisplacementsAreNotLeftOut) {
 // 5 % of the displacements are wrong by as much as the largest: they are found, and the correction
 // is nearly as good as without them.
 TEST(ComplianceCorrection, OutliersTakeNothingFromTheCorrection) {
-  const SolidProblem truth = cube(5, 10);
+  const SolidProblem truth = cubeWithBall(5, 10);
   const auto greens = truth.greens();
-  const Prior prior(4);
+  const CorrectionPrior prior(4);
   const Measurements held = measuredOn(greens, truth.model.mesh(), rigOf(20, 0, 77));
   RigSettings rig = rigOf(25, 0.01);
   CorrectedGreensFunctions sound = prior.corrected(measuredOn(greens, truth.model.mesh(), rig));
@@ -169,8 +113,8 @@ TEST(ComplianceCorrection, OutliersTakeNothingFromTheCorrection) {
 
 // In few modes the correction is one of the prior's leading modes alone.
 TEST(ComplianceCorrection, FewModesSpanTheCorrection) {
-  const SolidProblem truth = cube(5, 0.1);
-  const Prior prior(4);
+  const SolidProblem truth = cubeWithBall(5, 0.1);
+  const CorrectionPrior prior(4);
   CorrectionOptions options;
   options.modes = 7;
   CorrectedGreensFunctions found =
@@ -183,7 +127,7 @@ TEST(ComplianceCorrection, FewModesSpanTheCorrection) {
 }
 
 TEST(ComplianceCorrection, WhatCannotBeIsRefused) {
-  const Prior prior(3);
+  const CorrectionPrior prior(3);
   const Measurements sound = measuredOn(prior.greens, prior.problem.model.mesh(), rigOf(2, 0.01));
   const auto refused = [&](const auto& change, const char* words) {
     CorrectionOptions options;

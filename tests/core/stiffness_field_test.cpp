@@ -8,84 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/modulus_response.h"
-#include "identification/stiffness_modes.h"
+#include "support/inclusions.h"
 #include "support/refusals.h"
-#include "support/rigs.h"
-#include "support/solids.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr double kYoung = 2e4, kPoisson = 0.3;
-const Eigen::Vector3d kBall(0.5, 0.5, 0.6);
-
-bool base(const Eigen::Vector3d& x) {
-  return x.z() < 1e-9;
-}
-
-Eigen::Matrix3Xd centresOf(const TetrahedralMesh& mesh) {
-  Eigen::Matrix3Xd centres(3, mesh.cellCount());
-  for (int c = 0; c < mesh.cellCount(); ++c)
-    centres.col(c) = mesh.points()(Eigen::all, mesh.tetrahedra().col(c)).rowwise().mean();
-  return centres;
-}
-
-/// A cube in whose upper middle a ball is of another stiffness, by this factor.
-SolidProblem cubeWithBall(int divisions, double factor, double poisson = kPoisson) {
-  const TetrahedralMesh mesh = kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh();
-  const Eigen::Matrix3Xd centres = centresOf(mesh);
-  std::vector<int> materials;
-  for (const auto& centre : centres.colwise()) materials.push_back((centre - kBall).norm() < 0.37);
-  const ElasticModel model = makeModel(boundaryOf(mesh), base, 1, poisson);
-  return SolidProblem{model, SolidBody(model.mesh(), mesh,
-                                       {Elasticity(Material(kYoung, poisson)),
-                                        Elasticity(Material(kYoung * factor, poisson))},
-                                       materials)};
-}
-
-/// What a field is identified with: a coarser cube of one stiffness.
-struct Prior {
-  TetrahedralMesh mesh;
-  ElasticModel model;
-
-  explicit Prior(int divisions)
-      : mesh(kuhnBox({1, 1, 1}, {divisions, divisions, divisions}).mesh()),
-        model(makeModel(boundaryOf(mesh), base, 1, kPoisson)) {}
-
-  StiffnessField identified(const Measurements& m, const StiffnessFieldOptions& options,
-                            int modes = 50, double length = 0.3) const {
-    const RigSetup rig = setupOn(model, m);
-    const ModulusResponse response(model, mesh,
-                                   stiffnessModes(centresOf(mesh), mesh.volumes(), length, modes),
-                                   nodalForces(rig.setup, m, model.mesh().vertexAreas()));
-    return identifyStiffnessField(
-        [&](const Eigen::VectorXd& modulus, double poisson, bool derivatives,
-            const Progress& progress) {
-          auto answer = response.at(modulus, poisson, derivatives, progress);
-          return MovedSurface{std::move(answer.displacements), std::move(answer.byModes)};
-        },
-        response.modes(), mesh.volumes(), rig.setup, m, options);
-  }
-
-  /// Relative error of the displacements that a body of these moduli predicts.
-  double errorOf(const Eigen::VectorXd& modulus, double poisson, const Measurements& m) const {
-    const RigSetup rig = setupOn(model, m);
-    const ModulusResponse response(model, mesh, Eigen::MatrixXd(mesh.cellCount(), 0),
-                                   nodalForces(rig.setup, m, model.mesh().vertexAreas()));
-    const Eigen::MatrixXd moved = response.at(modulus, poisson, false).displacements;
-    double error = 0, size = 0;
-    for (int i = 0; i < rig.setup.markerCount(); ++i) {
-      Eigen::Vector3d here = Eigen::Vector3d::Zero();
-      for (int k = 0; k < 3; ++k)
-        here += rig.setup.weights[i][k] *
-                moved.col(rig.setup.probeOf[i]).segment<3>(3 * rig.setup.nodes[i][k]);
-      error += (here - m.displacements[i].displacement).squaredNorm();
-      size += m.displacements[i].displacement.squaredNorm();
-    }
-    return std::sqrt(error / size);
-  }
-};
+using namespace inclusions;
 
 /// Probes as they are fitted, and others without noise to be predicted.
 struct Rig {
@@ -93,13 +22,8 @@ struct Rig {
 
   explicit Rig(const SolidProblem& truth, int probes = 20) {
     const auto greens = truth.greens();
-    RigSettings settings;
-    settings.radius = 0.3;
-    settings.probes = probes;
-    fitted = measuredOn(greens, truth.model.mesh(), settings);
-    settings.noise = 0;
-    settings.seed = 77;
-    heldOut = measuredOn(greens, truth.model.mesh(), settings);
+    fitted = measuredOn(greens, truth.model.mesh(), rigOf(probes, 0.01));
+    heldOut = measuredOn(greens, truth.model.mesh(), rigOf(probes, 0, 77));
   }
 };
 
@@ -128,7 +52,7 @@ class HiddenBalls : public ::testing::TestWithParam<double> {};
 // which alone makes 1 % of difference.
 TEST_P(HiddenBalls, ProbesLeftOutArePredicted) {
   const Rig rig(cubeWithBall(9, GetParam()));
-  const Prior prior(8);
+  const FieldPrior prior(8);
   const Eigen::VectorXd uniform = Eigen::VectorXd::Constant(prior.mesh.cellCount(), kYoung);
   StiffnessFieldOptions options;
   options.poissonRatio = kPoisson;
@@ -153,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Factors, HiddenBalls, ::testing::Values(0.1, 10));
 // Of a uniform body nothing is made up: the field is uniform but for its own deviations.
 TEST(StiffnessField, UniformBodiesStayUniform) {
   const Rig rig(cubeWithBall(6, 1), 10);
-  const Prior prior(5);
+  const FieldPrior prior(5);
   StiffnessFieldOptions options;
   options.poisson = true;
   const StiffnessField found = prior.identified(rig.fitted, options, 30);
@@ -171,7 +95,7 @@ TEST(StiffnessField, UniformBodiesStayUniform) {
 TEST(StiffnessField, OutliersAreFoundAndLeftOut) {
   const SolidProblem truth = cubeWithBall(6, 0.2);
   Rig rig(truth, 10);
-  const Prior prior(5);
+  const FieldPrior prior(5);
   StiffnessFieldOptions options;
   options.folds = 0;
   const StiffnessField before = prior.identified(rig.fitted, options, 30);
@@ -186,7 +110,7 @@ TEST(StiffnessField, OutliersAreFoundAndLeftOut) {
 
 TEST(StiffnessField, WhatCannotBeIsRefused) {
   const Rig rig(cubeWithBall(4, 1), 2);
-  const Prior prior(3);
+  const FieldPrior prior(3);
   const auto refused = [&](const auto& change, const char* words) {
     StiffnessFieldOptions options;
     Measurements m = rig.fitted;
