@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "commands.h"
@@ -33,9 +34,18 @@ void addOptions(CLI::App& command, Options& o) {
                   "A model, the body on the rig: of another mesh or method than what will be "
                   "identified")
       ->required();
-  requireWritable(
-      command.add_option("output", o.output, "The table of measurements, .csv or .vtp")->required(),
-      "measurements", "");
+  CLI::Option* output =
+      command.add_option("output", o.output, "The table of measurements, .csv or .vtp")->required();
+  requireWritable(output, "measurements", "");
+  output->check(CLI::Validator(
+      [](const std::string& name) -> std::string {
+        const std::string ending = std::filesystem::path(name).extension().string();
+        return ending == ".csv" || ending == ".vtp"
+                   ? ""
+                   : "measurements are written as .csv or .vtp: choose a name that ends so, not " +
+                         name;
+      },
+      ""));
   command.add_option("--probes", o.probes, "How many press")->capture_default_str();
   command.add_option("--markers", o.markers, "How many are seen under each")->capture_default_str();
   command.add_option("--radius", o.radius, "Of a probe's tip, m; by default two mean edges")
@@ -68,7 +78,7 @@ void addOptions(CLI::App& command, Options& o) {
                   "Young's modulus over the stiffness per area of the support, m; 0: firm")
       ->check(isFinite());
   command.add_option("--seed", o.seed, "Of all that is random")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command.footer(
       "  palpate precompute kidney_fine.vtp body.vtp --method fem --young 8e3 --poisson 0.4\n"

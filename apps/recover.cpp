@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "commands.h"
@@ -69,7 +70,9 @@ void addOptions(CLI::App& command, Options& o) {
   command.add_option("--samples", o.samples, "Of noise, that the deviations are found from")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command.add_option("--seed", o.seed, "Of these")->capture_default_str();
+  command.add_option("--seed", o.seed, "Of these")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->capture_default_str();
   o.picture.addTo(command, "how the surface moves and the pressures on it");
   o.report.addTo(command, "what was found, how sure it is and how it fits");
   command.footer(

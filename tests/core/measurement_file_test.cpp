@@ -70,6 +70,16 @@ TEST(MeasurementFile, SemicolonsAndBlanksDoAsWell) {
             1u);
 }
 
+// As R and spreadsheets write words.
+TEST(MeasurementFile, WordsMayBeQuoted) {
+  std::string text = with("probe,contact_vertex", "\"probe\",\"contact_vertex\"");
+  text.replace(text.find("\na,"), 3, "\n\"a\",");
+  const Measurements m = read(text);
+  ASSERT_EQ(m.probes.size(), 2u);
+  EXPECT_EQ(m.probes[0].name, "a");
+  EXPECT_EQ(m.displacements[1].probe, 0);
+}
+
 TEST(MeasurementFile, WhatIsWrongIsNamedByLine) {
   const std::pair<std::string, std::string> cases[] = {
       {with("u_z", "uz"), "line 2: there is no column 'uz'"},
@@ -163,6 +173,10 @@ TEST(Measurements, PlacesOffTheSurfaceTellTheirUnit) {
   m = oneRow();
   m.displacements[0].displacement.x() = 4;
   EXPECT_TRUE(isRefused([&] { place(m); }, "1.16 times the size of the body"));
+  m = oneRow();
+  m.probes[0].radius = 300;
+  EXPECT_TRUE(
+      isRefused([&] { place(m); }, "probe 1: a tip of radius 300 m is larger than the body"));
   m = oneRow();
   m.displacements[0].marker.vertex = 162;
   EXPECT_TRUE(isRefused([&] { place(m); }, "there is no vertex 162, the surface has 162"));

@@ -90,7 +90,8 @@ TEST(RigSimulation, SettingsOutOfRangeAreRefused) {
     change(rig);
     return isRefused([&] { sphere.measured(rig); }, sentence);
   };
-  EXPECT_TRUE(refused([](RigSettings& r) { r.probes = 0; }, "not 0 and 50"));
+  EXPECT_TRUE(refused([](RigSettings& r) { r.probes = 0; }, "1 to 1000 probes"));
+  EXPECT_TRUE(refused([](RigSettings& r) { r.foundationLength = 0.1; }, "--support-columns"));
   EXPECT_TRUE(refused([](RigSettings& r) { r.noise = -1; }, "noise must be at least 0"));
   EXPECT_TRUE(refused([](RigSettings& r) { r.outliers = 1; }, "below 1, not 1 and 0"));
   EXPECT_TRUE(refused([](RigSettings& r) { r.tilt = 91; }, "0 to 90 degrees, not 91"));

@@ -274,6 +274,10 @@ class Program(Folder):
             self.assertFalse(out.exists())
         done = run("measure", self.folder / "body.vtp", out, "--tilt", 100)
         self.assertIn("0 to 90 degrees, not 100", done.stderr)
+        other = self.folder / "rig.vtu"
+        done = run("measure", self.folder / "body.vtp", other)
+        self.assertIn("written as .csv or .vtp", done.stderr)
+        self.assertFalse(other.exists())
 
 
 if __name__ == "__main__":

@@ -350,11 +350,14 @@ ContactRecovery Recovery::result() {
   return result;
 }
 
-void requireOptions(const RecoveryOptions& options) {
+void requireOptions(const RecoveryOptions& options, const SurfaceMesh& mesh) {
   if (!(options.friction >= 0 && options.friction <= 100))
     refuse("friction must be from 0 to 100, not ", options.friction);
   if (std::isnan(options.radius) || options.radius == INFINITY)
     refuse("the radius of the patches must be a number, not ", options.radius);
+  if (options.radius > mesh.diagonal())
+    refuse("patches of radius ", shortly(options.radius), " m are larger than the body, ",
+           shortly(mesh.diagonal()), " m: are both in metres?");
   if (options.samples < 0 || options.samples > 100000)
     refuse("deviations are found from 0 to 100000 samples, not ", options.samples);
 }
@@ -365,7 +368,7 @@ ContactRecovery recoverContacts(const GreensFunctions& greens, const SurfaceMesh
                                 const Eigen::VectorXi& patches,
                                 const ObservedDisplacements& observed,
                                 const RecoveryOptions& options, const Progress& progress) {
-  requireOptions(options);
+  requireOptions(options, mesh);
   requireUsable(mesh, observed);
   return Recovery(greens, mesh, patches, observed, options, progress).result();
 }

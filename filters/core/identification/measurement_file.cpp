@@ -55,6 +55,11 @@ constexpr const char* kNames[] = {"probe",     "contact_vertex",
                                   "sd_y",      "sd_z"};
 static_assert(std::size(kNames) == ColumnCount);
 
+std::string_view unquoted(std::string_view word) {
+  const bool isQuoted = word.size() > 1 && word.front() == '"' && word.back() == '"';
+  return isQuoted ? word.substr(1, word.size() - 2) : word;
+}
+
 /// One table on its way into Measurements.
 class Table {
  public:
@@ -82,7 +87,7 @@ class Table {
   void requireColumns() const;
   void readLine();
   std::string_view word(Column column) const {
-    return has(column) ? words_[place_[column]] : std::string_view();
+    return has(column) ? unquoted(words_[place_[column]]) : std::string_view();
   }
   double value(Column column, double unit) const { return unit * lines_.number(word(column)); }
   Eigen::Vector3d vector(Column first, double unit) const;
@@ -105,7 +110,8 @@ void Table::readNames() {
   std::fill(std::begin(place_), std::end(place_), -1);
   if (!lines_.nextWith('#')) lines_.refuse("there is no line of names");
   separator_ = separatorOf(lines_.line());
-  const std::vector<std::string_view> names = wordsOf(lines_.line(), separator_);
+  std::vector<std::string_view> names = wordsOf(lines_.line(), separator_);
+  for (std::string_view& name : names) name = unquoted(name);
   columnCount_ = names.size();
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = std::find(std::begin(kNames), std::end(kNames), names[i]);

@@ -176,6 +176,10 @@ MeasuredPlaces placesOn(const SurfaceMesh& mesh, const BoundaryConditions& condi
       isFree = isFree || (contact.barycentric[k] > 0 &&
                           !conditions.isFixed(mesh.triangles()(k, contact.triangle)));
     if (!isFree) refuse("probe ", probe.name, " presses on the support, where nothing gives way");
+    if (probe.radius > mesh.diagonal())
+      refuse("probe ", probe.name, ": a tip of radius ", shortly(probe.radius),
+             " m is larger than the body, ", shortly(mesh.diagonal()),
+             " m: check the table's unit of length");
   }
   places.markers = markersOn(mesh, measurements, tolerance);
   return places;

@@ -73,7 +73,7 @@ struct MeasuredPlaces {
 /// @param tolerance  farthest that a place may be from the surface, m.
 /// @throws std::invalid_argument naming the row: a vertex that the surface does not have, a place
 ///         off the surface (with the unit of length that it seems to be in), a contact on the
-///         support alone, displacements larger than the body.
+///         support alone, a tip or displacements larger than the body.
 MeasuredPlaces placesOn(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                         const Measurements& measurements, double tolerance);
 

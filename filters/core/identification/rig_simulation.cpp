@@ -40,7 +40,7 @@ void requireSense(const RigSettings& s) {
   const auto isShare = [](double share) { return share >= 0 && share < 1; };
   if (s.probes < 1 || s.markers < 1 || s.probes > kMostProbes ||
       s.probes > kMostRows / std::max(1, s.markers))
-    refuse("a rig has up to ", kMostProbes, " probes, and markers, together up to ", kMostRows,
+    refuse("a rig has 1 to ", kMostProbes, " probes, and markers, together up to ", kMostRows,
            " displacements, not ", s.probes, " and ", s.markers);
   if (!(s.foundationLength >= 0 && s.foundationLength < 1e6))
     refuse("the length by which a support yields must be from 0 to 1e6 m, not ",
@@ -164,6 +164,11 @@ Measurements simulateMeasurements(
   if (settings.radius > mesh.diagonal())
     refuse("a tip of radius ", settings.radius, " m is larger than the body, ", mesh.diagonal(),
            " m: are both in metres?");
+  for (int node : greens.info().conditions.fixedNodes())
+    if (settings.foundationLength > 0 && !greens.hasColumn(node))
+      refuse("the Green's functions of the support (vertex ", node,
+             ") were not computed, so that it cannot give way: precompute with "
+             "--support-columns (in Python columns=np.arange(n))");
   Chance chance(settings.seed);
   const FreeSurface surface(greens, mesh);
   Measurements measurements;
