@@ -131,6 +131,11 @@ TEST(StiffnessField, WhatCannotBeIsRefused) {
         for (auto& d : m.displacements) d.displacement = -d.displacement;
       },
       "against the forces"));
+  EXPECT_TRUE(refused(
+      [](Options&, Measurements& m) {
+        for (auto& d : m.displacements) d.displacement.setZero();
+      },
+      "nothing moved"));
 }
 
 }  // namespace

@@ -133,6 +133,12 @@ class Package(Folder):
         at = dict(marker_vertices=[0, 5], contact_vertices=[0], radius=0.4)
         self.refused("times the size of the body", palpate.identify, held_sphere(),
                      palpate.measurement_table([0, 0], [[0, 0, -5], [0, 1, 0]], [[0, 0, -1]], **at))
+        for wrong, sentence in ((dict(marker_vertices=[1.5, 2]), "tuple 0: there is no vertex 1.5"),
+                                (dict(probe=[0, 5]), "tuple 1: there is no probe 5")):
+            arguments = {"probe": [0, 0], **at, **wrong}
+            probe = arguments.pop("probe")
+            self.refused(sentence, palpate.identify, held_sphere(), palpate.measurement_table(
+                probe, [[0, 0, -1e-2], [0, 1e-3, 0]], [[0, 0, -1]], **arguments))
         at = dict(markers=1e3 * place, contacts=[1e3 * place[0]], radius=400)
         self.refused("times 0.001 it would be on it", palpate.identify, held_sphere(),
                      palpate.measurement_table([0, 0], [[0, 0, -5], [0, 1, 0]], [[0, 0, -1]], **at))

@@ -18,6 +18,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace palpate::convert
@@ -63,6 +64,16 @@ Eigen::Vector3d vectorAt(vtkDataArray* array, vtkIdType tuple)
   return value;
 }
 
+int indexAt(vtkDataArray* array, vtkIdType tuple, vtkIdType count, const std::string& what)
+{
+  const double value = array->GetComponent(tuple, 0);
+  if (!(value >= 0 && value < count && value == std::floor(value)))
+  {
+    refuse(array->GetName(), ", tuple ", tuple, ": there is no ", what, " ", value);
+  }
+  return static_cast<int>(value);
+}
+
 /// Places by vertices, by points, or by both where the vertex is -1 for a point.
 class Places
 {
@@ -70,7 +81,6 @@ public:
   Places(vtkPolyData* table, const char* vertices, const char* points, vtkIdType count, double unit)
     : Vertices(optionalArray(table, vertices, 1, count))
     , Points(optionalArray(table, points, 3, count))
-    , Name(vertices)
     , Unit(unit)
   {
     if (!this->Vertices && !this->Points)
@@ -83,7 +93,7 @@ public:
     RestPlace place;
     if (this->Vertices && (!this->Points || this->Vertices->GetComponent(i, 0) != -1))
     {
-      place.vertex = vertexNumber(this->Vertices->GetComponent(i, 0), VTK_INT_MAX, this->Name, i);
+      place.vertex = indexAt(this->Vertices, i, VTK_INT_MAX, "vertex");
     }
     else
     {
@@ -94,7 +104,6 @@ public:
 
 private:
   vtkDataArray *Vertices, *Points;
-  std::string Name;
   double Unit;
 };
 
@@ -178,8 +187,7 @@ void readDisplacements(vtkPolyData* table, double length, Measurements& result)
     measured.row = static_cast<int>(i);
     if (probes)
     {
-      measured.probe = vertexNumber(
-        probes->GetComponent(i, 0), known, std::string(arrays::MeasurementProbe) + ", tuple ", i);
+      measured.probe = indexAt(probes, i, known, "probe");
     }
     measured.marker = markers[i];
     measured.displacement = length * vectorAt(displacements, i);
