@@ -37,7 +37,8 @@ void addFiles(CLI::App& command, Options& o) {
 void addQuestion(CLI::App& command, AccuracyOptions& o) {
   command
       .add_option("input", o.input,
-                  "A surface with support and material; a model counts as its surface")
+                  "A surface with support and material; a model counts as its surface. For "
+                  "identification also a volume mesh (.vtu), taken as it is")
       ->required();
   command
       .add_option("--method", o.method,
@@ -52,9 +53,10 @@ void addQuestion(CLI::App& command, AccuracyOptions& o) {
   command.add_flag("--hinged", o.hinged, "Fixed vertices of a shell may turn");
   command
       .add_option("--query", o.query,
-                  "compliance under a mask at points, greens (displacement of the whole surface) "
-                  "or force (on a ball that is pressed in)")
-      ->check(CLI::IsMember({"compliance", "greens", "force"}))
+                  "compliance under a mask at points, greens (displacement of the whole surface), "
+                  "force (on a ball that is pressed in), or identification, from what a rig would "
+                  "measure of a known model")
+      ->check(CLI::IsMember({"compliance", "greens", "force", "identification"}))
       ->capture_default_str();
   command
       .add_option("--at", o.points,
@@ -80,6 +82,26 @@ void addQuestion(CLI::App& command, AccuracyOptions& o) {
       ->default_str("finest, of a half-space's compliances boussinesq");
 }
 
+void addRig(CLI::App& command, RigOptions& o) {
+  const char* const group = "Of --query identification";
+  CLI::Option* rig =
+      command
+          .add_option("--rig", o.model,
+                      "A model of the body as it is, of another mesh or method than the surface "
+                      "that is identified: it is measured as by `palpate measure`")
+          ->group(group);
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->capture_default_str()->needs(rig)->group(group);
+  };
+  add("--probes", o.probes, "How many press")->check(CLI::Range(1, 10000));
+  add("--markers", o.markers, "How many are seen under each")->check(CLI::Range(1, 100000));
+  add("--noise", o.noise, "Standard deviation, over the largest displacement")
+      ->check(CLI::Range(0.0, 1.0));
+  add("--outliers", o.outliers, "Share of displacements that are wrong")
+      ->check(CLI::Range(0.0, 1.0));
+  add("--seed", o.seed, "Of all that is random")->check(CLI::Range(0, 1000000));
+}
+
 void addSweep(CLI::App& command, AccuracyOptions& o) {
   command.add_option("--levels", o.levels, "Levels of the surface, 1 as it is")
       ->check(CLI::Range(1, 9))
@@ -94,10 +116,12 @@ void addSweep(CLI::App& command, AccuracyOptions& o) {
       .add_option("--reference-level", o.referenceLevel,
                   "Finest level that `finest` extrapolates from; by default the last of --levels")
       ->check(CLI::Range(1, 9));
-  command.add_option("--knobs", o.knobs,
-                     "What is varied: level, tolerance, solver, collocation, combined, "
-                     "reciprocity, edges, support, storage, columns, method, element, rows, "
-                     "mask, contact; by default all that query and method have");
+  command.add_option(
+      "--knobs", o.knobs,
+      "What is varied: level, tolerance, solver, collocation, combined, "
+      "reciprocity, edges, support, storage, columns, method, element, rows, "
+      "mask, contact; of identification level, loss, interpolation, elements, field, "
+      "correction; by default all that query and method have");
   command.add_option("--repeats", o.repeats, "Runs of every setting, in turn")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
@@ -120,12 +144,13 @@ void printResult(const TrialResult& result) {
     return;
   }
   char text[160];
-  std::snprintf(
-      text, sizeof text, "%9.3g %%%s %9.3g s (%.3g to %.3g, %d runs) %8.3g MB%s",
-      100 * result.error, result.isBelowCertainty() ? "?" : " ", result.time().median,
-      result.time().lower, result.time().upper, result.runs,
-      static_cast<double>(result.trial.isPrecompute ? result.peakBytes : result.storedBytes) / 1e6,
-      result.isOnFront ? "  front" : "");
+  std::snprintf(text, sizeof text, "%9.3g %%%s %9.3g s (%.3g to %.3g, %d runs) %8.3g MB%s",
+                100 * result.error, result.isBelowCertainty() ? "?" : " ", result.time().median,
+                result.time().lower, result.time().upper, result.runs,
+                (result.trial.isPrecompute ? result.peakBytes.median
+                                           : static_cast<double>(result.storedBytes)) /
+                    1e6,
+                result.isOnFront ? "  front" : "");
   printRow(label, text);
 }
 
@@ -147,8 +172,9 @@ void printStudy(const AccuracyStudy& study) {
   for (const TrialResult& result : study.results) {
     if (result.trial.knob != knob)
       printRow(result.trial.knob,
-               std::string("error, seconds to ") +
-                   (result.trial.isPrecompute ? "precompute, peak" : "query, stored"));
+               std::string("error, seconds to ") + (study.isIdentification      ? "identify, peak"
+                                                    : result.trial.isPrecompute ? "precompute, peak"
+                                                                                : "query, stored"));
     knob = result.trial.knob;
     printResult(result);
   }
@@ -180,7 +206,7 @@ void requireSensibleFiles(const Options& o) {
   for (const std::string& path : written) {
     const std::string reason = whyUnwritable(path);
     if (!reason.empty()) throw std::invalid_argument(reason);
-    for (const std::string& read : {o.study.input, o.study.reference}) {
+    for (const std::string& read : {o.study.input, o.study.reference, o.study.rig.model}) {
       std::error_code ignored;
       if (std::filesystem::equivalent(path, read, ignored))
         throw std::invalid_argument("the results would overwrite " + path +
@@ -206,6 +232,7 @@ void addAccuracy(CLI::App& program) {
       "accuracy", "What accuracy costs: error against time of every knob, for a query on a body");
   addQuestion(*command, options->study);
   addSweep(*command, options->study);
+  addRig(*command, options->study.rig);
   options->study.support.addTo(*command);
   addFiles(*command, *options);
   command->footer(
@@ -213,7 +240,8 @@ void addAccuracy(CLI::App& program) {
       "  palpate accuracy data/kidney.vtp --levels 1 2 3 --report kidney_accuracy.html\n"
       "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat\n"
       "  palpate accuracy bonnet.vtp --method shell --thickness 0.001\n"
-      "  palpate accuracy patch.vtp --method halfspace --reference boussinesq");
+      "  palpate accuracy patch.vtp --method halfspace --reference boussinesq\n"
+      "  palpate accuracy part.vtp --query identification --rig part_as_it_is.vtp");
   command->callback([options] {
     requireSensibleFiles(*options);
     const AccuracyStudy study = studyAccuracy(options->study);

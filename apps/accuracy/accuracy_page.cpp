@@ -16,8 +16,15 @@ std::string secondsText(const Quartiles& time) {
          ")";
 }
 
-std::string megabytes(std::size_t bytes) {
-  return number(static_cast<double>(bytes) / 1e6, 3);
+std::string megabytes(double bytes) {
+  return number(bytes / 1e6, 3);
+}
+
+std::string megabytes(const Quartiles& bytes) {
+  const std::string spread = bytes.lower < bytes.upper ? " (" + megabytes(bytes.lower) + " to " +
+                                                             megabytes(bytes.upper) + ")"
+                                                       : "";
+  return megabytes(bytes.median) + spread;
 }
 
 /// What a knob is, above its table.
@@ -43,7 +50,18 @@ std::string meaningOf(const std::string& knob) {
       {"rows", "Rows of which the deformation is evaluated."},
       {"mask",
        "The mask's radius in mean edges of this level, against the same radius in the reference."},
-      {"contact", "Relative tolerance of the contact solver."}};
+      {"contact", "Relative tolerance of the contact solver."},
+      {"loss", "How residuals count while outliers are looked for, of the material of one body."},
+      {"interpolation",
+       "Relative tolerance of responses between the materials for which they are computed."},
+      {"elements", "The material by the other method, on every level."},
+      {"field",
+       "Stiffness that varies inside, in so many modes, by finite elements in place of one "
+       "material."},
+      {"correction",
+       "The identified model's Green's functions corrected in so many of its leading modes; "
+       "seconds "
+       "are of both."}};
   return meanings.at(knob);
 }
 
@@ -60,16 +78,21 @@ std::string tableOf(const AccuracyStudy& study, const std::string& knob) {
       continue;
     }
     row.push_back(percent(result.error) + (result.isBelowCertainty() ? " ?" : ""));
-    row.push_back(percent(result.knobError));
+    if (!study.isIdentification) row.push_back(percent(result.knobError));
     row.push_back(result.isOnFront ? "●" : "");
     row.push_back(secondsText(result.precompute));
-    row.push_back(secondsText(result.query));
+    if (!study.isIdentification) row.push_back(secondsText(result.query));
     row.push_back(std::to_string(result.runs));
     row.push_back(std::to_string(result.columns));
     row.push_back(megabytes(result.peakBytes));
-    row.push_back(megabytes(result.storedBytes));
+    row.push_back(megabytes(static_cast<double>(result.storedBytes)));
     rows.push_back(row);
   }
+  if (study.isIdentification)
+    return html::table(
+        {knob, "level", "vertices", "error", "Pareto front", "seconds to identify (quartiles)",
+         "runs", "columns", "peak, MB", "stored, MB"},
+        rows);
   return html::table({knob, "level", "vertices", "error", "of it the knob's own", "Pareto front",
                       "seconds to precompute (quartiles)", "seconds a query (quartiles)", "runs",
                       "columns", "peak, MB", "stored, MB"},
@@ -114,11 +137,14 @@ std::string accuracyPage(const AccuracyStudy& study) {
     body += "<h2>" + html::escaped(knob) + "</h2>\n<p>" + meaningOf(knob) + "</p>\n" +
             tableOf(study, knob);
   }
+  const std::string memory = study.isIdentification
+                                 ? "Memory is what the process took in addition, at its peak."
+                                 : "A query is repeated within a run until it takes 10 ms.";
   body += "<h2>How it was measured</h2>\n<p>Medians of the runs with their quartiles, by the " +
           std::string(study.clock == "cpu" ? "processor time of all threads" : "wall clock") +
           ". All settings are run in turn, and again in the next round, so that a machine that "
-          "slows down biases none; those that take long are run less often, twice at least. A "
-          "query is repeated within a run until it takes 10 ms.</p>\n";
+          "slows down biases none; those that take long are run less often, twice at least. " +
+          memory + "</p>\n";
   return html::page(study.body + ": what accuracy costs", body);
 }
 

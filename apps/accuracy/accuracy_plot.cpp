@@ -20,7 +20,15 @@ const char* const kColours[] = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66
 /// Whether the trials of a series follow one another, so that a line through them means something.
 bool isSequence(const TrialResult& result) {
   const std::string& knob = result.trial.knob;
-  return knob != "storage" && knob != "columns" && knob != "rows";
+  return knob != "storage" && knob != "columns" && knob != "rows" && knob != "loss";
+}
+
+/// What stands beside a mark.
+std::string noteOf(const AccuracyStudy& study, const TrialResult& result) {
+  if (result.trial.knob == "level") return std::to_string(result.vertices);
+  const bool isNamed = study.isIdentification && result.trial.knob != "interpolation" &&
+                       result.trial.knob != "elements";
+  return isNamed ? result.trial.value : "";
 }
 
 /// The series of one stage, each with a colour of its own.
@@ -43,8 +51,7 @@ std::vector<Series> seriesOf(const AccuracyStudy& study, bool isPrecompute) {
     found->x.push_back(time);
     found->y.push_back(100 * result.error);
     found->isHollow.push_back(result.isBelowCertainty());
-    const bool isLevel = result.trial.knob == "level";
-    found->notes.push_back(isLevel ? std::to_string(result.vertices) : "");
+    found->notes.push_back(noteOf(study, result));
   }
   return all;
 }
@@ -70,18 +77,27 @@ void addMarks(std::vector<Series>& all, const AccuracyStudy& study, bool isPreco
                    Series::Style::Dashed});
 }
 
+std::string titleOf(const AccuracyStudy& study, bool isPrecompute) {
+  return study.isIdentification ? "identification" : isPrecompute ? "precomputation" : "one query";
+}
+
+std::string timeOf(const AccuracyStudy& study, bool isPrecompute) {
+  return study.isIdentification ? "seconds to identify"
+         : isPrecompute         ? "seconds to precompute"
+                                : "seconds a query";
+}
+
 Drawing drawingOf(const AccuracyStudy& study) {
   Drawing drawing;
   drawing.height = kPlotHeight;
   for (bool isPrecompute : {true, false}) {
-    Plot plot{isPrecompute ? "precomputation" : "one query",
-                         std::string(isPrecompute ? "seconds to precompute" : "seconds a query") +
-                             (study.clock == "cpu" ? " (processor)" : ""),
-                         "error (%)",
-                         seriesOf(study, isPrecompute),
-                         kPlotWidth,
-                         kPlotHeight,
-                         kLegendWidth};
+    Plot plot{titleOf(study, isPrecompute),
+              timeOf(study, isPrecompute) + (study.clock == "cpu" ? " (processor)" : ""),
+              "error (%)",
+              seriesOf(study, isPrecompute),
+              kPlotWidth,
+              kPlotHeight,
+              kLegendWidth};
     if (plot.series.empty()) continue;
     addMarks(plot.series, study, isPrecompute);
     addPlot(drawing, plot, drawing.width, 0);

@@ -14,6 +14,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "accuracy/identification_study.h"
 #include "accuracy/knobs.h"
 #include "accuracy/pareto_front.h"
 #include "accuracy/points.h"
@@ -103,6 +104,12 @@ void requireSensible(const AccuracyOptions& options) {
   if (options.radius == 0)
     throw std::invalid_argument("say by --radius under which mask the compliances of " +
                                 options.reference + " are");
+}
+
+/// An error as it counts for the front: to three digits, as differences beyond are of no use, and
+/// the reference's uncertainty where it cannot tell the answer from the truth.
+double countedError(const TrialResult& result) {
+  return std::stod(number(std::max(result.error, result.uncertainty), 3));
 }
 
 /// Everything on the way from options to results.
@@ -261,28 +268,10 @@ class AccuracyRun {
           relativeError(sample.answer, sample.answer.values, sweep.of(*trial.best).answer.values);
     result.precompute = quartilesOf(sample.precomputeSeconds);
     result.query = quartilesOf(sample.querySeconds);
-    result.peakBytes = sample.peakBytes;
+    const auto peak = static_cast<double>(sample.peakBytes);
+    result.peakBytes = {peak, peak, peak};
     result.storedBytes = sample.storedBytes;
     return result;
-  }
-
-  /// An error as it counts for the front: to three digits, as differences beyond are of no use, and
-  /// the reference's uncertainty where it cannot tell the answer from the truth.
-  static double countedError(const TrialResult& result) {
-    return std::stod(number(std::max(result.error, result.uncertainty), 3));
-  }
-
-  /// Of the trials whose time is that of one stage.
-  static void markFront(std::vector<TrialResult>& results, bool isPrecompute) {
-    std::vector<double> times, errors;
-    for (const TrialResult& result : results) {
-      const bool isOfStage = result.trial.isPrecompute == isPrecompute && result.failure.empty();
-      times.push_back(isOfStage ? result.time().median : std::nan(""));
-      errors.push_back(isOfStage ? countedError(result) : std::nan(""));
-    }
-    const std::vector<bool> front = paretoFront(times, errors);
-    for (std::size_t i = 0; i < results.size(); ++i)
-      if (front[i]) results[i].isOnFront = true;
   }
 
   AccuracyOptions options_;
@@ -299,7 +288,22 @@ class AccuracyRun {
 
 }  // namespace
 
+void markFront(std::vector<TrialResult>& results, bool isPrecompute) {
+  std::vector<double> times, errors;
+  for (const TrialResult& result : results) {
+    const bool isOfStage = result.trial.isPrecompute == isPrecompute && result.failure.empty();
+    times.push_back(isOfStage ? result.time().median : std::nan(""));
+    errors.push_back(isOfStage ? countedError(result) : std::nan(""));
+  }
+  const std::vector<bool> front = paretoFront(times, errors);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (front[i]) results[i].isOnFront = true;
+}
+
 AccuracyStudy studyAccuracy(const AccuracyOptions& given) {
+  if (given.query == "identification") return studyIdentification(given);
+  if (!given.rig.model.empty())
+    throw std::invalid_argument("--rig is one of --query identification, not of " + given.query);
   AccuracyOptions options = given;
   if (options.reference.empty()) {
     const bool isKnown = options.method == "halfspace" && options.query == "compliance";

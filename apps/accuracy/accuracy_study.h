@@ -16,7 +16,8 @@ struct TrialResult {
   double uncertainty = 0;  ///< of the reference
   double knobError = 0;  ///< against the knob at its most accurate; NaN where it has no such value
   Quartiles precompute, query;  ///< s
-  std::size_t peakBytes = 0, storedBytes = 0;
+  Quartiles peakBytes;
+  std::size_t storedBytes = 0;
   bool isOnFront = false;
   std::string failure;  ///< why there is no answer; empty otherwise
 
@@ -29,6 +30,7 @@ struct TrialResult {
 struct AccuracyStudy {
   std::string body, method, reference, error;  ///< in words
   QueryKind query = QueryKind::Compliance;
+  bool isIdentification = false;  ///< what is timed, in place of a precomputation and its query
   std::vector<std::array<double, 3>> points;  ///< on the finest level, m; none of a point source
   double radius = 0, ballRadius = 0, depth = 0;
   double uncertainty = 0;  ///< of the reference at the base's radius
@@ -36,6 +38,9 @@ struct AccuracyStudy {
   std::string clock;
   std::vector<TrialResult> results;
 };
+
+/// Marks what nothing beats of the trials whose time is that of one stage.
+void markFront(std::vector<TrialResult>& results, bool isPrecompute);
 
 /// @throws std::invalid_argument or std::runtime_error with a sentence.
 AccuracyStudy studyAccuracy(const AccuracyOptions& options);

@@ -76,6 +76,13 @@ struct Trial {
   std::optional<Setting> best;  ///< the knob at its most accurate, where it has such a value
 };
 
+/// What a body's material is identified from: a rig's measurements of a model.
+struct RigOptions {
+  std::string model;  ///< its file
+  int probes = 10, markers = 50, seed = 1;
+  double noise = 0.01, outliers = 0.05;  ///< as vtkRigSimulation has them
+};
+
 /// What `palpate accuracy` is asked for.
 struct AccuracyOptions {
   std::string input;
@@ -84,6 +91,7 @@ struct AccuracyOptions {
   double thickness = 0;  ///< of a shell, m, 0 for the surface's array
   bool hinged = false;   ///< a shell's fixed vertices may turn
   std::string query = "compliance";
+  RigOptions rig;                    ///< of the query identification
   std::vector<double> points;        ///< x y z of each; empty: spread over the surface
   double radius = 0;                 ///< m, 0 for a mean edge of the surface as it is
   double ballRadius = 0, depth = 0;  ///< m, 0 for the mask's radius, and a tenth of the ball's

@@ -4,38 +4,17 @@
 #include "accuracy/sweep.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
-#include <new>
 #include <stdexcept>
 
 #include "accuracy/compute_greens.h"
+#include "accuracy/timing.h"
 
 namespace palpate::app {
 namespace {
 
 constexpr double kLeastTimed = 0.01;  ///< s: shorter queries are timed many at a time
 constexpr int kLeastRuns = 2;
-
-double wallSeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// What is wrong with a setting that this body is too hard for.
-template <class Work>
-std::string failureOf(const Work& work) {
-  try {
-    work();
-  } catch (const Aborted&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return "there is not enough memory";
-  } catch (const std::runtime_error& failure) {
-    return failure.what();
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -62,10 +41,7 @@ Sweep::Sweep(const BodyLevels& body, const Query& query, const std::vector<Setti
 }
 
 double Sweep::now() const {
-  if (!options_.cpuClock) return wallSeconds();
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return secondsBy(options_.cpuClock);
 }
 
 void Sweep::runGroup(Group& group, const Progress& progress) {

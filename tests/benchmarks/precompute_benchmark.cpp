@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bem/boundary_element_method.h"
-#include "support/memory.h"
+#include "process_memory.h"
 #include "support/spheres.h"
 
 namespace palpate::bench {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "support/memory.h"
+#include "process_memory.h"
 
 #include <malloc.h>
 
 #include <fstream>
 #include <string>
 
-namespace palpate::bench {
+namespace palpate {
 namespace {
 
 /// A line of /proc/self/status, in kibibytes there.
@@ -33,4 +33,4 @@ std::size_t peakMemory() {
   return statusBytes("VmHWM:");
 }
 
-}  // namespace palpate::bench
+}  // namespace palpate

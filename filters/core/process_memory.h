@@ -5,12 +5,13 @@
 
 #include <cstddef>
 
-namespace palpate::bench {
+namespace palpate {
 
-/// The process's resident memory now, in bytes; forgets the peak so far (Linux).
+/// The process's resident memory now, in bytes; forgets the peak so far. 0 where the system does
+/// not tell (other than Linux).
 std::size_t startPeakMemory();
 
 /// Its largest resident memory since startPeakMemory(), in bytes.
 std::size_t peakMemory();
 
-}  // namespace palpate::bench
+}  // namespace palpate
