@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Palpate contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make methods.png, a body of each method under a contact, and methods_agree.png, stiffness by two methods.
+"""Make methods.png, a body of each method under a contact, methods_agree.png, stiffness by two methods, and
+identification_accuracy.png, what a better identification of a block with a hidden soft ball costs (minutes).
 
 Needs the package under PYTHONPATH=build/python; draws with the program, so no display.
 """
@@ -18,6 +19,7 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkPolyData, 
 from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkImagingCore import vtkExtractVOI, vtkImageResize
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import palpate
 
@@ -51,8 +53,8 @@ def sheet(n, shape):
     return surface_of(points, triangles)
 
 
-def layered_block(n=8, layers=6):
-    """A soft block with a hard plate inside: tetrahedra with a Young's modulus each."""
+def block(n, layers, young):
+    """Tetrahedra, of a Young's modulus that depends on their middles, on n by n squares and in layers."""
     grid, points = vtkUnstructuredGrid(), vtkPoints()
     points.SetDataTypeToDouble()
     for k in range(layers + 1):
@@ -60,18 +62,31 @@ def layered_block(n=8, layers=6):
             for i in range(n + 1):
                 points.InsertNextPoint(0.1 * i / n, 0.1 * j / n, 0.06 * k / layers)
     grid.SetPoints(points)
-    young = []
+    moduli = []
     for k in range(layers):
         for j in range(n):
             for i in range(n):
                 corner = [(i + (c & 1)) + (n + 1) * ((j + (c >> 1 & 1)) + (n + 1) * (k + (c >> 2)))
                           for c in range(8)]
                 for tetrahedron in KUHN:
-                    grid.InsertNextCell(VTK_TETRA, 4, [corner[c] for c in tetrahedron])
-                    young.append(1e6 if k == layers - 2 and i < n / 2 else 1e4)
-    for name, values in (("YoungsModulus", young), ("PoissonRatio", np.full(len(young), 0.4))):
+                    ids = [corner[c] for c in tetrahedron]
+                    grid.InsertNextCell(VTK_TETRA, 4, ids)
+                    moduli.append(young(np.mean([grid.GetPoint(i) for i in ids], axis=0)))
+    for name, values in (("YoungsModulus", moduli), ("PoissonRatio", np.full(len(moduli), 0.4))):
         grid.GetCellData().AddArray(palpate.arrays.as_vtk(values, name, 1))
     return grid
+
+
+def layered_block(n=8, layers=6):
+    """A soft block with a hard plate inside."""
+    return block(n, layers,
+                 lambda at: 1e6 if int(layers * at[2] / 0.06) == layers - 2 and at[0] < 0.05 else 1e4)
+
+
+def lumpy_block(n, layers, lump):
+    """A soft block with a ball of another Young's modulus inside."""
+    return block(n, layers,
+                 lambda at: lump if np.linalg.norm(at - (0.06, 0.05, 0.036)) < 0.022 else 1e4)
 
 
 def points_of(surface):
@@ -83,8 +98,8 @@ def kidney(**options):
     return palpate.precompute(surface, 8e3, 0.45, **options)
 
 
-def solid():
-    grid = layered_block()
+def held_below(grid):
+    """A model of a solid that stands on a firm support."""
     boundary = palpate.vtkSolidBoundary()
     boundary.SetInputData(grid)
     boundary.Update()
@@ -157,6 +172,13 @@ def write_side_by_side(images, path):
     writer.Write()
 
 
+def write_volume(grid, path):
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(str(path))
+    writer.Write()
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--program", default=BUILT)
@@ -168,7 +190,7 @@ def main():
 
     with tempfile.TemporaryDirectory() as name:
         aside = Path(name)
-        body = solid()
+        body = held_below(layered_block())
         presses = {
             "bem": (kidney(), (0, 0, 0.03), (0, 0, -1.2), 0.015, (0.4, -0.9, 0.5)),
             "fem": (body, (0.07, 0.05, 0.06), (0, 0, -4), 0.02, (0.5, -1, 0.8)),
@@ -192,6 +214,13 @@ def main():
                 0.5)
             views.append(resized(picture(image), 600, 450))
         write_side_by_side(views, options.folder / "methods_agree.png")
+
+        truth, guess = aside / "truth.vtp", aside / "block.vtu"
+        palpate.write(held_below(lumpy_block(10, 6, lump=1e3)), str(truth))
+        write_volume(lumpy_block(6, 4, lump=1e4), guess)
+        run("accuracy", guess, "--query", "identification", "--method", "fem", "--rig", truth, "--radius", 0.03,
+            "--probes", 20, "--fix-half-space", 0, 0, 1e-4, 0, 0, 1, "--threads", 1, "--clock", "cpu", "--repeats", 2,
+            "--image", options.folder / "identification_accuracy.png")
 
 
 if __name__ == "__main__":

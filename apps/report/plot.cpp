@@ -14,7 +14,8 @@ namespace {
 constexpr const char *kInk = "#22222a", *kGrid = "#e2e2e8";
 constexpr double kRing = 8, kLegendMark = 4;
 constexpr double kManyDecades = 3;  ///< beyond, ticks are powers of ten alone
-constexpr double kLetter = 8;       ///< width of a label's letter, pixels
+constexpr double kNote = 11, kNoteLetter = 6.5;
+constexpr double kLetter = 8;  ///< width of a label's letter, pixels
 
 /// An axis between two places of the drawing.
 struct Axis {
@@ -25,7 +26,10 @@ struct Axis {
         isLogarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
     return from + (to - from) * share;
   }
-  std::vector<double> ticks() const { return isLogarithmic ? decimalTicks() : evenTicks(); }
+  std::vector<double> ticks() const {
+    const std::vector<double> decimal = isLogarithmic ? decimalTicks() : std::vector<double>();
+    return decimal.size() < 2 ? evenTicks() : decimal;  // within less than a decade
+  }
   /// What it has a place for.
   bool shows(double value) const { return std::isfinite(value) && (!isLogarithmic || value > 0); }
 
@@ -148,6 +152,19 @@ bool hasMarks(const Series& series) {
   return series.style != Series::Style::Line && series.style != Series::Style::Dashed;
 }
 
+/// Whether a note covers no other.
+bool hasRoom(const Drawing& drawing, const Drawing::Label& note) {
+  const auto middleOf = [](const Drawing::Label& label) {
+    const double half = 0.5 * kNoteLetter * static_cast<double>(label.text.size());
+    return label.x + (label.anchor == Drawing::Anchor::End ? -half : half);
+  };
+  return std::none_of(drawing.labels.begin(), drawing.labels.end(), [&](const auto& other) {
+    const double letters = static_cast<double>(note.text.size() + other.text.size());
+    return other.size == kNote && std::abs(other.y - note.y) < kNote &&
+           std::abs(middleOf(other) - middleOf(note)) < 0.5 * kNoteLetter * letters;
+  });
+}
+
 bool isAllHollow(const Series& series) {
   return std::all_of(series.isHollow.begin(), series.isHollow.end(), [](bool is) { return is; });
 }
@@ -162,8 +179,9 @@ void addSeries(Drawing& drawing, const Series& series, const Axis& x, const Axis
     if (hasMarks(series)) drawing.marks.push_back(markOf(series, i, px, py));
     if (series.notes.empty()) continue;
     const bool isAtEdge = px > x.to - 50;
-    drawing.labels.push_back({px + (isAtEdge ? -9 : 9), py - 7, series.notes[i],
-                              isAtEdge ? Drawing::Anchor::End : Drawing::Anchor::Start, 11});
+    const Drawing::Label note{px + (isAtEdge ? -9 : 9), py - 7, series.notes[i],
+                              isAtEdge ? Drawing::Anchor::End : Drawing::Anchor::Start, kNote};
+    if (hasRoom(drawing, note)) drawing.labels.push_back(note);
   }
   if (hasLine(series)) drawing.lines.push_back(line);
 }
