@@ -74,8 +74,9 @@ void print(vtkPolyData* model) {
   const double error = fieldNumber(model, "HoldOutError", -1),
                prior = fieldNumber(model, "PriorHoldOutError", -1);
   if (error >= 0)
-    printRow("error at probes left out",
-             percent(error) + ", by the prior " + percent(prior) + ", noise and all");
+    printRow("error at probes left out", percent(error) + ", by the prior " + percent(prior) +
+                                             ", noise and all; fitted ones " +
+                                             percent(fieldNumber(model, "FitError", -1)));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ struct Options {
   double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4;
   std::vector<double> poissonRange;
   bool yieldingSupport = false, isRegistered = false, noEstimate = false;
-  double fieldLength = 0, fieldDeviation = 1;
+  double fieldLength = 0, fieldDeviation = 0;
   int folds = 5, nextProbes = 0, threads = 0, modes = 50;
 };
 
@@ -92,11 +92,11 @@ void addField(CLI::App& command, Options& o) {
       ->needs(field)
       ->group(group);
   command
-      .add_option("--field-deviation", o.fieldDeviation,
-                  "Standard deviation of ln E that is expected")
+      .add_option(
+          "--field-deviation", o.fieldDeviation,
+          "Standard deviation of ln E that is expected; by default as the measurements tell")
       ->check(isFinite())
       ->check(CLI::Range(0.01, 10.0))
-      ->capture_default_str()
       ->needs(field)
       ->group(group);
 }
@@ -267,6 +267,10 @@ void printField(vtkPolyData* model, vtkUnstructuredGrid* grid) {
   printRow("Young's modulus in the body, Pa", number(moduli[0], 3) + " to " + number(moduli[1], 3));
   printRow("deviation of its logarithm",
            number(deviations[0], 2) + " to " + number(deviations[1], 2));
+  printRow("deviation that was expected of it", number(fieldNumber(model, "FieldDeviation", 1), 2));
+  printRow("one modulus all over fits to", percent(fieldNumber(model, "UniformFitError", -1)) +
+                                               ", the field to " +
+                                               percent(fieldNumber(model, "FitError", -1)));
   printRow("unknowns that are determined", number(fieldNumber(model, "DeterminedUnknowns", 0), 3));
 }
 
@@ -292,7 +296,8 @@ void printModel(vtkPolyData* model, const std::string& rowWord) {
   printProbes(model);
   printRow("outliers", outliersOf(model, rowWord));
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
-    printRow("error at probes left out", percent(error) + ", noise and all");
+    printRow("error at probes left out", percent(error) + ", noise and all; fitted ones " +
+                                             percent(fieldNumber(model, "FitError", -1)));
   if (const double error = fieldNumber(model, "ResponseInterpolationError", 0); error > 0)
     printRow("error of interpolation", percent(error));
   printNextProbes(model);

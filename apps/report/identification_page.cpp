@@ -176,7 +176,7 @@ std::string identificationPage(vtkPolyData* model, vtkUnstructuredGrid* field,
   const std::string title = titleOf(model, run);
   std::string body = "<h1>" + html::escaped(title) + "</h1>\n" + subtitle(run) + lead(model, data) +
                      identified(model) + observability(model, field);
-  if (field) body += fieldText(model, field, std::stod(run["--field-deviation"]));
+  if (field) body += fieldText(model, field, fieldNumber(model, "FieldDeviation", 1));
   body += places(model, data) + fit(model, data, run) + heldOut(model, data, run) +
           "<h2>How it was made</h2>\n" + provenance(model, run);
   return html::page(title, body);

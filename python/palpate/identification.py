@@ -114,9 +114,9 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
 
 
 def identify_field(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, volume=None,
-                   modes=50, length=None, deviation=1.0, register=False, loss="cauchy", folds=5,
+                   modes=50, length=None, deviation=None, register=False, loss="cauchy", folds=5,
                    length_unit="m", force_unit="N", place_tolerance=0.02, smooth_angle=30.0,
-                   reciprocal=True, threads=0, progress=None):
+                   reciprocal=True, estimate_error=True, threads=0, progress=None):
     """Identify a body whose stiffness varies inside from displacements under known forces.
 
     Young's modulus is a random field: its logarithm varies by `deviation` over `length`. The field that
@@ -129,12 +129,15 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
         As in `identify` with method="fem".
     force_unit, place_tolerance, smooth_angle, reciprocal, threads, progress
         As in `identify`.
+    estimate_error : bool
+        As in `precompute`, of a body of one modulus; warns where a field explains less than the mesh errs.
     modes : int
         Of the field, up to 1000. More resolve smaller places; time grows with their number.
     length : float, optional
         Over which stiffness varies, m; by default 0.15 of the surface's diagonal.
-    deviation : float
-        Standard, of ln E, expected before anything is measured.
+    deviation : float, optional
+        Standard, of ln E, expected before anything is measured: 1 for factors of three either way. By
+        default the one that makes the measurements most probable.
 
     Returns
     -------
@@ -164,6 +167,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     True
     """
     filter = vtkStiffnessFieldIdentification()
+    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
     surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
     set_unknowns(filter, poisson, poisson_range)
     set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads)
@@ -173,7 +177,8 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     filter.SetNumberOfModes(modes)
     if length is not None:
         filter.SetFieldLength(positive(length, "length"))
-    filter.SetFieldDeviation(number(deviation, "deviation"))
+    if deviation is not None:
+        filter.SetFieldDeviation(positive(deviation, "deviation"))
     filter.SetInputData(posed(surface, 1.0, 0.3, fixed))
     model = computed(filter, progress)
     return model, filter.GetOutputDataObject(1)

@@ -46,6 +46,25 @@ TEST(StiffnessModes, MakeTheFieldThatTheyAreSaidToMake) {
   EXPECT_TRUE(isRefused([&] { stiffnessModes(centres, mesh.volumes(), 1, 0); }, "at least one"));
 }
 
+// The deviation that is expected is the one that makes the measurements most probable: of a body of
+// one stiffness, on another mesh, next to none.
+TEST(StiffnessField, TheDeviationThatIsExpectedIsChosen) {
+  const Rig rig(cubeWithBall(6, 1));
+  const FieldPrior prior(5);
+  StiffnessFieldOptions options;
+  options.poissonRatio = kPoisson;
+  options.folds = 0;
+  const StiffnessField found = prior.identified(rig.fitted, options);
+  EXPECT_LE(found.expected, 0.1);
+  EXPECT_GE(found.modulus.minCoeff(), 0.85 * kYoung);
+  EXPECT_LE(found.modulus.maxCoeff(), 1.15 * kYoung);
+  EXPECT_GE(found.uniformError, found.fit.fitError);
+  EXPECT_LE(found.uniformError, 1.05 * found.fit.fitError);
+  options.deviation = 1;
+  const StiffnessField loose = prior.identified(rig.fitted, options);
+  EXPECT_GT(loose.modulus.maxCoeff() / loose.modulus.minCoeff(), 1.8);
+}
+
 class HiddenBalls : public ::testing::TestWithParam<double> {};
 
 // Where the prior is a body of the right modulus but for the ball. Another mesh than the rig's,
@@ -80,6 +99,7 @@ TEST(StiffnessField, UniformBodiesStayUniform) {
   const FieldPrior prior(5);
   StiffnessFieldOptions options;
   options.poisson = true;
+  options.deviation = 1;
   const StiffnessField found = prior.identified(rig.fitted, options, 30);
   ASSERT_EQ(found.fit.parameters.size(), 2u);
   EXPECT_NEAR(found.fit.parameters[0].value / kYoung, 1, 0.05);
@@ -118,7 +138,7 @@ TEST(StiffnessField, WhatCannotBeIsRefused) {
     return isRefused([&] { prior.identified(m, options, 5); }, words);
   };
   using Options = StiffnessFieldOptions;
-  EXPECT_TRUE(refused([](Options& o, Measurements&) { o.deviation = 0; }, "deviation of ln E"));
+  EXPECT_TRUE(refused([](Options& o, Measurements&) { o.deviation = -1; }, "deviation of ln E"));
   EXPECT_TRUE(refused([](Options& o, Measurements&) { o.poissonRatio = 0.6; }, "Poisson"));
   EXPECT_TRUE(refused(
       [](Options& o, Measurements&) {

@@ -107,7 +107,8 @@ class Field(Refusals):
 
         refused("at least one mode", modes=0)
         refused("length must be above 0", length=0)
-        refused("deviation of ln E", deviation=0)
+        refused("deviation must be above 0", deviation=0)
+        refused("deviation of ln E", deviation=11)
         refused("without volume", volume="body")
 
     def test_aborts_without_a_result(self):

@@ -65,6 +65,7 @@ struct MaterialIdentification {
   int valueCount = 0;  ///< components that count
   double noise = 0;    ///< standard deviation of a residual's component, m
   double misfit = -1;  ///< residuals over the deviations given, root mean square; -1: not given
+  double fitError = 0;  ///< residuals over displacements that count, root mean squares
   double holdOutError = -1;  ///< of displacements under probes left out, relative; -1: no folds
   double interpolationError = 0;
   int samples = 0;  ///< Green's functions that were computed

@@ -83,6 +83,13 @@ Eigen::VectorXd MeasuredValues::withoutFold(const Eigen::VectorXd& weights, int 
   return kept;
 }
 
+double MeasuredValues::leftBy(const Eigen::VectorXd& residuals,
+                              const Eigen::VectorXd& weights) const {
+  const Eigen::ArrayXd counts = (weights.array() > 0).cast<double>();
+  const double size = (counts * measured_.array().square()).sum();
+  return size > 0 ? std::sqrt((counts * residuals.array().square()).sum() / size) : 0;
+}
+
 void MeasuredValues::describe(const Eigen::VectorXd& residuals, const std::vector<int>& outliers,
                               MaterialIdentification& result) const {
   const int probes = static_cast<int>(table_.probes.size());
@@ -104,6 +111,7 @@ void MeasuredValues::describe(const Eigen::VectorXd& residuals, const std::vecto
         sizes[p] += std::pow(measured_[place], 2);
       }
   }
+  result.fitError = leftBy(residuals, weights);
   for (int p = 0; p < probes; ++p) {
     if (values[p] == 0) continue;
     result.probes[p].residual = std::sqrt(squares[p] / values[p]);

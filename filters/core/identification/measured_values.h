@@ -45,6 +45,9 @@ class MeasuredValues {
   /// Weights, but 0 in a fold.
   Eigen::VectorXd withoutFold(const Eigen::VectorXd& weights, int fold, int folds) const;
 
+  /// Residuals over displacements where weights are not 0, root mean squares.
+  double leftBy(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) const;
+
   /// Sets residuals, outliers, the number of values that count, and probes.
   /// @param residuals  measured less predicted, 3 #markers, m.
   void describe(const Eigen::VectorXd& residuals, const std::vector<int>& outliers,

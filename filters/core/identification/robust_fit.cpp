@@ -206,6 +206,12 @@ Eigen::VectorXd RobustFit::linearResidualsWithout(const Eigen::VectorXd& kept,
   return residuals_ - jacobian * step;
 }
 
+double RobustFit::leftByMultipleOf(const Eigen::VectorXd& displacements) const {
+  const Eigen::VectorXd weights = inlierWeights();
+  const double factor = table_.factorOf(displacements, weights);
+  return table_.leftBy(table_.measured() - factor * displacements, weights);
+}
+
 double RobustFit::holdOutError(int wanted) const {
   const int folds = table_.foldCount(wanted);
   if (folds < 2) return -1;

@@ -60,6 +60,10 @@ class RobustFit {
   /// Sets residuals, outliers, probes, noise and misfit, with what is doubtful in these.
   void describe(MaterialIdentification& result) const;
 
+  /// What the best multiple of displacements leaves, without outliers: over those measured, root
+  /// mean squares.
+  double leftByMultipleOf(const Eigen::VectorXd& displacements) const;
+
   /// The relative error of displacements under probes that the unknowns were not identified from;
   /// of one probe, of markers. -1 where that cannot be told.
   double holdOutError(int folds) const;

@@ -18,6 +18,9 @@ constexpr double kPoissonStep = 1e-4;
 constexpr double kTolerance = 1e-4;  // of fits, each step of which costs a factorisation
 constexpr int kUsualSolutions = 20;
 constexpr double kLargestField = 4;  // of ln E anywhere, over its deviation
+constexpr double kUsualDeviation = 1, kLeastDeviation = 0.01, kMostDeviation = 10;
+constexpr double kSettledDeviation = 0.2;  // relative change
+constexpr int kDeviations = 8;             // that are tried
 
 /// Displacements at the markers as a function of ln E_0, Poisson's ratio where it is unknown, and
 /// the a_k.
@@ -25,7 +28,22 @@ class FieldModel {
  public:
   FieldModel(const MovedSurfaceOf& moved, const Eigen::MatrixXd& modes, const MeasuredSetup& setup,
              const StiffnessFieldOptions& options, const Progress& progress)
-      : moved_(moved), modes_(modes), setup_(setup), options_(options), progress_(progress) {}
+      : moved_(moved),
+        modes_(modes),
+        setup_(setup),
+        options_(options),
+        progress_(progress),
+        deviation_(options.deviation > 0 ? options.deviation : kUsualDeviation) {}
+
+  /// That is expected of ln E.
+  double deviation() const { return deviation_; }
+  /// @return the unknowns of the same field.
+  Eigen::VectorXd withDeviation(double deviation, Eigen::VectorXd unknowns) {
+    unknowns.tail(modes_.cols()) *= deviation_ / deviation;
+    deviation_ = deviation;
+    place_.resize(0);
+    return unknowns;
+  }
 
   int firstMode() const { return options_.poisson ? 2 : 1; }
   int count() const { return firstMode() + static_cast<int>(modes_.cols()); }
@@ -36,7 +54,7 @@ class FieldModel {
   Eigen::MatrixXd logModulusBy() const {
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(modes_.rows(), count());
     by.col(0).setOnes();
-    by.rightCols(modes_.cols()) = options_.deviation * modes_;
+    by.rightCols(modes_.cols()) = deviation_ * modes_;
     return by;
   }
   Eigen::VectorXd modulus(const Eigen::VectorXd& unknowns) const {
@@ -52,7 +70,7 @@ class FieldModel {
     jacobian->col(0) = -result;
     for (int i = 0; i < setup_.markerCount(); ++i)
       jacobian->block(3 * i, firstMode(), 3, modes_.cols()) =
-          softness * options_.deviation * markerRows(here.byModes[setup_.probeOf[i]], i);
+          softness * deviation_ * markerRows(here.byModes[setup_.probeOf[i]], i);
     if (options_.poisson) {
       Eigen::VectorXd further = unknowns;
       further[1] += kPoissonStep;
@@ -74,7 +92,7 @@ class FieldModel {
   }
 
   Eigen::VectorXd relative(const Eigen::VectorXd& unknowns) const {
-    return (options_.deviation * (modes_ * unknowns.tail(modes_.cols()))).array().exp();
+    return (deviation_ * (modes_ * unknowns.tail(modes_.cols()))).array().exp();
   }
 
   /// Of a mean modulus of 1 Pa. The last place is kept: fits ask for it twice.
@@ -106,6 +124,7 @@ class FieldModel {
   const MeasuredSetup& setup_;
   const StiffnessFieldOptions& options_;
   Progress progress_;
+  double deviation_;
   int solutions_ = 0;
   Eigen::VectorXd place_;
   MovedSurface kept_;
@@ -130,9 +149,9 @@ DisplacementModel displacementModel(FieldModel& field, const StiffnessFieldOptio
 }
 
 void requireSound(const StiffnessFieldOptions& options) {
-  if (!(options.deviation > 0) || !(options.deviation <= 10))
-    refuse("the standard deviation of ln E must be above 0 and at most 10, not ",
-           options.deviation);
+  if (!(options.deviation >= 0 && options.deviation <= kMostDeviation))
+    refuse("the standard deviation of ln E must be above 0 and at most ", kMostDeviation,
+           ", or 0 to be chosen, not ", options.deviation);
   if (!options.poisson) {
     Material(1, options.poissonRatio);  // checks it
   } else if (!(options.poissonLower > -1 && options.poissonUpper + kPoissonStep < 0.5 &&
@@ -179,6 +198,21 @@ void describe(const RobustFit& fit, const FieldModel& field, const StiffnessFiel
   told.correlations(0, 1) = told.correlations(1, 0) = size > 0 ? reported(0, 1) / size : 0;
 }
 
+/// Fits the field, and chooses its deviation unless it is given.
+void run(const StiffnessFieldOptions& options, const Eigen::VectorXd& start, FieldModel& field,
+         RobustFit& fit) {
+  fit.run(start);
+  if (options.deviation > 0) return;
+  for (int i = 1; i < kDeviations; ++i) {
+    const double modes = std::max(1e-3, fit.determinedCount() - field.firstMode());
+    const Eigen::Index count = fit.unknowns().size() - field.firstMode();
+    const double size = fit.unknowns().tail(count).norm() / std::sqrt(modes);
+    const double next = std::clamp(size * field.deviation(), kLeastDeviation, kMostDeviation);
+    if (std::abs(next / field.deviation() - 1) < kSettledDeviation) return;
+    fit.run(field.withDeviation(next, fit.unknowns()));
+  }
+}
+
 }  // namespace
 
 StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::MatrixXd& modes,
@@ -194,7 +228,7 @@ StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::
   Eigen::VectorXd start = Eigen::VectorXd::Zero(field.count());
   if (options.poisson) start[1] = (options.poissonLower + options.poissonUpper) / 2;
   start[0] = std::log(fit.modulusBy(field.displacements(start, nullptr)));
-  fit.run(start);
+  run(options, start, field, fit);
 
   const LeastSquaresSolution& solution = fit.solution();
   if (solution.covariance.size() == 0)
@@ -204,12 +238,16 @@ StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::
   const Eigen::MatrixXd by = field.logModulusBy();
   // Of modes left out nothing is measured.
   const Eigen::ArrayXd others =
-      options.deviation * options.deviation * (1 - modes.rowwise().squaredNorm().array()).max(0);
+      field.deviation() * field.deviation() * (1 - modes.rowwise().squaredNorm().array()).max(0);
   result.deviation =
       ((by * solution.covariance).cwiseProduct(by).rowwise().sum().array().max(0) + others).sqrt();
   result.determined = fit.determinedCount();
+  result.expected = field.deviation();
   describe(fit, field, options, volumes, result);
   fit.describe(result.fit);
+  Eigen::VectorXd uniform = fit.unknowns();
+  uniform.tail(modes.cols()).setZero();
+  result.uniformError = fit.leftByMultipleOf(field.displacements(uniform, nullptr));
   const double largest = (modes * fit.unknowns().tail(modes.cols())).cwiseAbs().maxCoeff();
   if (largest > kLargestField)
     result.fit.warnings.push_back(

@@ -18,7 +18,9 @@ struct StiffnessFieldOptions {
   bool poisson = false;                           ///< whether Poisson's ratio, the same all over,
   double poissonRatio = 0.3;                      ///< is unknown; else it is this one
   double poissonLower = 0, poissonUpper = 0.449;  ///< where it is looked for
-  double deviation = 1;  ///< standard, of ln E about its mean: 1 for factors up to 3, often
+  /// Standard, of ln E about its mean: 1 for factors up to 3, often; 0 to choose the one that makes
+  /// the measurements most probable.
+  double deviation = 0;
   RobustLoss loss = RobustLoss::Cauchy;
   int folds = 5;  ///< of the cross-validation, by probes; below 2 for none
 };
@@ -31,6 +33,8 @@ struct StiffnessField {
   Eigen::VectorXd modulus;    ///< #T, Pa
   Eigen::VectorXd deviation;  ///< #T: standard, of ln E, given the measurements
   double determined = 0;      ///< how many unknowns the measurements determine
+  double expected = 1;        ///< standard deviation of ln E: the one given or chosen
+  double uniformError = 0;    ///< fit.fitError of the best body of one modulus
   /// Geometric mean of Young's modulus over the volume, and Poisson's ratio; residuals, outliers
   /// and warnings.
   MaterialIdentification fit;

@@ -204,6 +204,7 @@ constexpr const char* SupportYieldLength = "SupportYieldLength"; // E / k of an 
 constexpr const char* MeasurementNoise = "MeasurementNoise";     // standard deviation, m
 constexpr const char* MeasurementMisfit = "MeasurementMisfit"; // residuals over deviations given, or -1
 constexpr const char* HoldOutError = "HoldOutError"; // of probes left out, relative, or -1
+constexpr const char* FitError = "FitError"; // the same of what was fitted: residuals over displacements
 constexpr const char* ResponseInterpolationError = "ResponseInterpolationError"; // relative
 constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row by row
 constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
@@ -212,6 +213,8 @@ constexpr const char* RegistrationDistance = "RegistrationDistance"; // places f
 constexpr const char* PriorHoldOutError = "PriorHoldOutError"; // of vtkComplianceCorrection: its prior's
 constexpr const char* CorrectionSmoothing = "CorrectionSmoothing"; // noise over correction, variances
 constexpr const char* DeterminedUnknowns = "DeterminedUnknowns"; // of a field's: by measurements
+constexpr const char* FieldDeviation = "FieldDeviation"; // that was expected of a field's ln E
+constexpr const char* UniformFitError = "UniformFitError"; // FitError of one modulus in place of a field
 // A tuple a probe that was proposed: its vertex, its force, and the standard deviations that the
 // parameters would have with all up to it.
 constexpr const char* NextProbeVertex = "NextProbeVertex";         // id
@@ -251,7 +254,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   StageNames, Warnings, MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual,
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
-  HoldOutError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
+  HoldOutError, FitError, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
   RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, PriorHoldOutError, CorrectionSmoothing,
   NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of the surface that one was remeshed from.

@@ -367,6 +367,7 @@ void setIdentification(
   setFieldNumber(surface, arrays::MeasurementNoise, result.noise);
   setFieldNumber(surface, arrays::MeasurementMisfit, result.misfit);
   setFieldNumber(surface, arrays::HoldOutError, result.holdOutError);
+  setFieldNumber(surface, arrays::FitError, result.fitError);
   setFieldNumber(surface, arrays::ResponseInterpolationError, result.interpolationError);
 }
 

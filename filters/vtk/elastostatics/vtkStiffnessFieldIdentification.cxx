@@ -27,6 +27,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,7 @@ vtkStandardNewMacro(vtkStiffnessFieldIdentification);
 namespace
 {
 constexpr double UsualLength = 0.15; // over the diagonal
+constexpr double LeastVariation = 0.2; // of ln E, to speak of
 
 Eigen::Matrix3Xd centresOf(const palpate::TetrahedralMesh& mesh)
 {
@@ -54,6 +56,21 @@ void addCellNumbers(vtkUnstructuredGrid* grid, const char* name, const Eigen::Ve
   array->SetNumberOfTuples(values.size());
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   grid->GetCellData()->AddArray(array);
+}
+
+/// Where a mesh is coarse, stiffness that varies can stand for what its elements do not resolve.
+void warnOfMesh(
+  const palpate::StiffnessField& field, double error, std::vector<std::string>& warnings)
+{
+  const double explained =
+    std::sqrt(std::max(0.0, std::pow(field.uniformError, 2) - std::pow(field.fit.fitError, 2)));
+  if (explained < error && std::log(field.modulus.maxCoeff() / field.modulus.minCoeff()) > LeastVariation)
+  {
+    warnings.push_back(palpate::sentence("what the field explains beyond one modulus, ",
+      palpate::shortly(100 * explained), " % of the displacements, is less than the mesh's own error of ",
+      palpate::shortly(100 * error),
+      " %: where stiffness varies here may be the mesh's doing; refine the surface"));
+  }
 }
 
 void setField(vtkUnstructuredGrid* grid, const palpate::TetrahedralMesh& mesh,
@@ -175,11 +192,22 @@ void vtkStiffnessFieldIdentification::Compute(
   how.reciprocal = this->Reciprocal;
   palpate::ComputedGreensFunctions greens =
     palpate::computeFiniteElementGreensFunctions(found,
-      response.body(field.modulus, mean.poissonRatio()), how, progress.part(0.7, 1).callback());
+      response.body(field.modulus, mean.poissonRatio()), how,
+      progress.part(0.7, this->EstimateError ? 0.85 : 1).callback());
   greens.info.source += palpate::sentence("; a field of ", response.modes().cols(),
     " modes identified from ", measurements.displacements.size(), " displacements under ",
     measurements.probes.size(), " probes");
   std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  if (this->EstimateError)
+  {
+    // By the same body of one material: what the mesh does.
+    how.estimateError = true;
+    greens.info.diagnostics.error = palpate::computeFiniteElementGreensFunctions(found,
+      palpate::SolidBody(found.mesh(), *mesh, { palpate::Elasticity(mean) }), how,
+      progress.part(0.85, 1).callback())
+                                      .info.diagnostics.error;
+    warnOfMesh(field, greens.info.diagnostics.error.total(), warnings);
+  }
   warnings.insert(warnings.end(), field.fit.warnings.begin(), field.fit.warnings.end());
   vtkNew<vtkPolyData> computed;
   convert::setGreensFunctions(computed, found, std::move(greens));
@@ -193,6 +221,8 @@ void vtkStiffnessFieldIdentification::Compute(
   convert::shareGreensFunctions(computed, output, mean.youngsModulus());
   convert::setIdentification(output, field.fit, measurements);
   convert::setFieldNumber(output, palpate::arrays::DeterminedUnknowns, field.determined);
+  convert::setFieldNumber(output, palpate::arrays::FieldDeviation, field.expected);
+  convert::setFieldNumber(output, palpate::arrays::UniformFitError, field.uniformError);
   if (registration)
   {
     convert::setRegistration(output, *registration);

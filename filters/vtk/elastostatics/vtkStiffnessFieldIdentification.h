@@ -48,7 +48,8 @@ public:
 
   ///@{
   /**
-   * The standard deviation of ln E that is expected (1: factors of three either way are usual).
+   * The standard deviation of ln E that is expected (1: factors of three either way are usual); 0, the
+   * default, for the one that makes the measurements most probable.
    */
   vtkSetMacro(FieldDeviation, double);
   vtkGetMacro(FieldDeviation, double);
@@ -66,7 +67,7 @@ private:
 
   int NumberOfModes = 50;
   double FieldLength = 0;
-  double FieldDeviation = 1;
+  double FieldDeviation = 0;
 };
 
 #endif
