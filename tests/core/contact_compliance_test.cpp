@@ -91,6 +91,22 @@ TEST(ContactCompliance, AFixedNodeYieldsAloneByTheRigidStiffness) {
   EXPECT_TRUE(compliance.block(1, 0).isZero(0));
 }
 
+/// Or a place beside the support would be the stiffer, the more contacts it bears.
+TEST(ContactCompliance, ContactsShareTheYieldOfTheFixedNodesThatBearThem) {
+  for (bool reciprocal : {false, true}) {
+    ContactCompliance compliance({body(reciprocal, 1)}, 50, 4);
+    ASSERT_TRUE(compliance.add(ContactSite::atNode(0, 3)));
+    ASSERT_TRUE(compliance.add({2, {{{0, 3, 0.25}, {0, 7, 0.75}}}}));
+    ASSERT_TRUE(compliance.add(ContactSite::atNode(0, 7)));
+    const double shared[3][3] = {{1, 0.25, 0}, {0.25, 0.625, 0.75}, {0, 0.75, 1}};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        EXPECT_LE((50 * compliance.block(i, j) - shared[i][j] * Eigen::Matrix3d::Identity()).norm(),
+                  1e-14)
+            << i << " " << j;
+  }
+}
+
 TEST(ContactCompliance, RefusesWhatItHasNoRoomOrColumnFor) {
   SyntheticBody made;
   made.columns = {0, 1, 2};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/mesh_shape.h"
@@ -208,6 +209,55 @@ TEST(UnilateralContactTriangles, ABallThatSticksIsHeldWhereItLanded) {
   }
   EXPECT_NEAR(last, 0.5 * contact.force(0).z(), 0.05 * pressure);
   EXPECT_LT(contact.force(0).x(), -0.3 * pressure);
+}
+
+/// Friction does not fade, however long a ball rests: on the free top and beside the support.
+TEST(UnilateralContactTriangles, ABallThatSticksKeepsItsForceAtRest) {
+  const TouchedBody& body = coarseCube();
+  const auto ball = std::make_shared<SphereShape>(0.2);
+  for (double friction : {0.3, 0.7, 1.0})
+    for (bool onTop : {true, false}) {
+      const Eigen::Vector3d landed =
+          onTop ? Eigen::Vector3d(0.3, 0.37, 1.17) : Eigen::Vector3d(1.17, 0.53, 0.12);
+      const Eigen::Vector3d away = 0.04 * Eigen::Vector3d::Unit(onTop ? 2 : 0);
+      const Eigen::Vector3d drag = 0.05 * Eigen::Vector3d::Unit(onTop ? 1 : 2);
+      UnilateralContact contact(body.greens, body.mesh, {{ball, friction}}, {});
+      Eigen::Vector3d rested;
+      for (int tick = 0; tick < 800; ++tick) {
+        const RigidPose pose = at(landed + std::max(0.0, 1 - tick / 100.0) * away -
+                                  std::clamp(tick / 100.0 - 1, 0.0, 1.0) * drag);
+        contact.step(&pose);
+        if (tick < 500) rested = contact.force(0);
+        // Points inside triangles settle to 1e-4 of their triangles.
+        EXPECT_LE((contact.force(0) - rested).norm(), 1e-4 * rested.norm())
+            << friction << " " << onTop << " " << tick;
+      }
+      EXPECT_GT(std::abs(rested[onTop ? 1 : 2]), 0.2 * rested.norm());
+    }
+}
+
+/// There it meets the rigid stiffness, but once, and not with each triangle that it comes to touch.
+TEST(UnilateralContactTriangles, ABallPassesTheRimOfTheSupportWithoutAJump) {
+  const TouchedBody& body = coarseCube();
+  const double rigid = 10 * 2.5 * body.mesh->meanEdgeLength();
+  for (double friction : {0.0, 0.3})
+    for (double step : {1e-3, 2e-4}) {
+      UnilateralContact contact(body.greens, body.mesh,
+                                {{std::make_shared<SphereShape>(0.2), friction}}, {});
+      const RigidPose begin = at({1.17, 0.53, 0.3});
+      for (int tick = 0; tick < 100; ++tick) contact.step(&begin);
+      Eigen::Vector3d before = contact.force(0);
+      double largest = 0;
+      for (double z = 0.3; z > -0.25; z -= step) {
+        const RigidPose pose = at({1.17, 0.53, z});
+        contact.step(&pose);
+        largest = std::max(largest, (contact.force(0) - before).norm());
+        before = contact.force(0);
+      }
+      EXPECT_LE(largest, 1.2 * rigid * step) << friction << " " << step;
+      EXPECT_GT(largest, 0);
+      EXPECT_EQ(before, Eigen::Vector3d::Zero());  // it has left
+    }
 }
 
 TEST(UnilateralContactTriangles, ABarAcrossTrianglesIsHeldAlongItsLength) {

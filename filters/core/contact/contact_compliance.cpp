@@ -39,6 +39,18 @@ ContactCompliance::ContactCompliance(std::vector<std::shared_ptr<const GreensFun
   columnBorder_.resize(9 * std::size_t(capacity));
 }
 
+/// Contacts that a fixed node bears yield by it together, or each would be a stiffness of its own.
+void ContactCompliance::addSharedYield(const ContactSite::Part& part) noexcept {
+  for (int i = 0; i < count_; ++i)
+    for (int k = 0; k < sites_[i].count; ++k) {
+      const ContactSite::Part& other = sites_[i].parts[k];
+      if (other.body != part.body || other.node != part.node) continue;
+      const double yield = part.weight * other.weight / rigidStiffness_;
+      for (double* border : {columnBorder_.data(), rowBorder_.data()})
+        Eigen::Map<Eigen::Matrix3d>(border + 9 * i) += yield * Eigen::Matrix3d::Identity();
+    }
+}
+
 /// Blocks between a new contact and the present ones: W[present, new] into columnBorder_ (one 3 by
 /// 3 block a contact), W[new, present] into rowBorder_.
 void ContactCompliance::gatherBorder(const ContactSite& site) noexcept {
@@ -48,7 +60,10 @@ void ContactCompliance::gatherBorder(const ContactSite& site) noexcept {
     const ContactSite::Part& part = site.parts[p];
     const GreensFunctions& greens = *bodies_[part.body];
     const Eigen::Matrix3d& turn = orientations_[part.body];
-    if (greens.isFixed(part.node)) continue;
+    if (greens.isFixed(part.node)) {
+      addSharedYield(part);
+      continue;
+    }
     int present = 0;
     for (int i = 0; i < count_; ++i)
       for (int k = 0; k < sites_[i].count; ++k) {

@@ -51,7 +51,8 @@ struct ContactSite {
 class ContactCompliance {
  public:
   /// @param bodies          Green's functions of each elastic body.
-  /// @param rigidStiffness  N/m, k_Rigid of [JP01] eq. 33: what a fixed node yields by, alone.
+  /// @param rigidStiffness  N/m, k_Rigid of [JP01] eq. 33: what a fixed node yields by, alone,
+  ///                        to all contacts that it bears.
   /// @param capacity        most contacts there will be.
   /// @throws std::invalid_argument without a body, or for a stiffness or capacity that is not
   ///         positive.
@@ -97,6 +98,7 @@ class ContactCompliance {
  private:
   bool hasColumns(const ContactSite& site) const noexcept;
   void gatherBorder(const ContactSite& site) noexcept;
+  void addSharedYield(const ContactSite::Part& part) noexcept;
   Eigen::Matrix3d ownBlock(const ContactSite& site) const noexcept;
   double* mutableColumn(int k) { return matrix_.data() + std::size_t(k) * stride_; }
 

@@ -152,7 +152,8 @@ class UnilateralContact {
   bool isDeepestPart(int obstacle, const FacePoint& point) const noexcept;
   void lookInside(int obstacle, int slot) noexcept;
   bool watchInside(int obstacle, int slot, const FacePoint& point) noexcept;
-  bool moveInside(int contact, const FacePoint& point) noexcept;
+  bool moveInside(int contact, const Eigen::Matrix3d& corners, const FacePoint& point) noexcept;
+  Eigen::Vector3d placeByNodes(int contact) const noexcept;
   void inheritSlip(int contact, const Eigen::Vector3d& place) noexcept;
   bool followInside(bool betweenSteps) noexcept;
 

@@ -174,6 +174,16 @@ bool UnilateralContact::watchInside(int obstacle, int slot, const FacePoint& poi
   return true;
 }
 
+/// Where a contact with a tool lies by the displacements of its nodes under the gathered loads:
+/// without the yield of fixed ones and what its site is raised by, which go with its force.
+Eigen::Vector3d UnilateralContact::placeByNodes(int contact) const noexcept {
+  const ContactSite& where = site(contact);
+  Eigen::Vector3d place = restPlace(contact);
+  for (int p = 0; p < where.count; ++p)
+    place += where.parts[p].weight * displacementOf(where.parts[p].node);
+  return place;
+}
+
 /// A contact that goes on over an edge sticks, or has slipped, as it did before.
 void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) noexcept {
   ContactAnchor& anchor = anchors_[contact];
@@ -185,26 +195,29 @@ void UnilateralContact::inheritSlip(int contact, const Eigen::Vector3d& place) n
         solver_.force(other).isZero(0))
       continue;
     nearest = away;
-    anchor.place = pose.toOwn(place - placeOf(other) + pose.toWorld(anchors_[other].place));
+    anchor.place = pose.toOwn(place - placeByNodes(other) + pose.toWorld(anchors_[other].place));
   }
 }
 
 /// Lets a contact go on to another point of its triangle. If it sticks, it sticks as far from
-/// there.
+/// there: both places are those of the corners alone, or each move would shed what goes with the
+/// force, and a contact at rest would creep.
 /// @return whether it is another point.
-bool UnilateralContact::moveInside(int contact, const FacePoint& point) noexcept {
+bool UnilateralContact::moveInside(int contact, const Eigen::Matrix3d& corners,
+                                   const FacePoint& point) noexcept {
   ContactAnchor& anchor = anchors_[contact];
   anchor.faceNormal = point.faceNormal;
   ContactSite moved = site(contact);
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
   double way = 0;
   for (int k = 0; k < 3; ++k) {
+    before += moved.parts[k].weight * corners.col(k);
     way = std::max(way, std::abs(point.barycentric[k] - moved.parts[k].weight));
     moved.parts[k].weight = point.barycentric[k];
   }
   if (way <= kSiteAccuracy) return false;
   const RigidPose& pose = obstacles_[anchor.obstacle].pose;
-  if (anchor.place.allFinite())
-    anchor.place += pose.toOwn(point.place) - pose.toOwn(placeOf(contact));
+  if (anchor.place.allFinite()) anchor.place += pose.toOwn(point.place) - pose.toOwn(before);
   solver_.move(contact, moved);
   return true;
 }
@@ -229,7 +242,7 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
     const bool isElsewhere = idle && (point.isCorner() || point.near.distance >= 2 * nearness);
     if (!betweenSteps || (!isElsewhere && isDeepestPart(obstacle, point))) {
       if (!idle || point.near.distance < nearness / 2)
-        isChanged = moveInside(contact, point) || isChanged;
+        isChanged = moveInside(contact, corners, point) || isChanged;
       continue;
     }
     moving.lookInside[slot] =
