@@ -8,6 +8,7 @@
 #include "contact/mesh_shape.h"
 #include "contact/rigid_shape.h"
 #include "support/contact_bodies.h"
+#include "support/half_space.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"
 
@@ -68,6 +69,35 @@ TEST_F(PressingHands, AreFarFromTheSupportAndFromEachOther) {
   EXPECT_GT(places[0].z(), 0.9);
 }
 
+/// Beyond its rim a half-space's surface cannot be touched.
+TEST_F(PressingHands, PressAHalfSpaceFarFromItsRim) {
+  const HalfSpace patch = halfSpace(plate(1, 6).moved({2, 3, 0}));
+  const SceneBody body{patch.greens, patch.mesh};
+  const auto points = patch.mesh->points();
+  const Vector3d middle = (points.rowwise().minCoeff() + points.rowwise().maxCoeff()) / 2;
+  const int first = farthestFreeVertex(body);
+  EXPECT_LE((points.col(first) - middle).norm(), 1e-12);
+  const Vector3d second = points.col(farthestFreeVertex(body, {points.col(first)}));
+  EXPECT_GE((second - middle).norm(), patch.mesh->meanEdgeLength());
+  EXPECT_LT((second - middle).cwiseAbs().maxCoeff(),
+            (points.col(0) - middle).cwiseAbs().maxCoeff());
+}
+
+/// Wherever its origin is: here beyond one of its ends.
+TEST_F(PressingHands, PressWhatNothingFixesFarFromItsMiddle) {
+  int pressed[2];
+  for (int moved : {0, 1}) {
+    const Shape shape = box({1, 1, 3}, {1, 1, 3}).moved(moved * Vector3d(-4, 3, 9));
+    const TouchedBody body =
+        touchedBody(shape, std::vector<unsigned char>(shape.points.cols(), 0), true,
+                    Domain::Exterior);  // as an unsupported one, it has no fixed vertex
+    pressed[moved] = farthestFreeVertex({body.greens, body.mesh});
+    const double height = body.mesh->points()(2, pressed[moved]) - 9 * moved;
+    EXPECT_TRUE(height == 0 || height == 3) << height;
+  }
+  EXPECT_EQ(pressed[0], pressed[1]);
+}
+
 TEST_F(PressingHands, GoDownToTheirDepthAndBackWhereverTheDeviceLies) {
   SceneTool ball;
   ball.shape = ToolShape::Sphere;
@@ -85,8 +115,12 @@ TEST_F(PressingHands, GoDownToTheirDepthAndBackWhereverTheDeviceLies) {
     ASSERT_TRUE(device->read(state));
     const double height =
         (mapping.toScene(state.pose).position - press.contact).dot(press.outwards);
-    if (tick == 0) EXPECT_NEAR(height, press.clearance, 1e-12);
-    if (tick == 2000) EXPECT_NEAR(height, -press.depth, 0.1 * press.depth);
+    if (tick == 0) {
+      EXPECT_NEAR(height, press.clearance, 1e-12);
+    }
+    if (tick == 2000) {
+      EXPECT_NEAR(height, -press.depth, 0.1 * press.depth);
+    }
     least = std::min(least, height);
     most = std::max(most, height);
   }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace palpate {
 namespace {
@@ -15,6 +17,7 @@ constexpr double kClearance = 0.05, kDepth = 0.02;  ///< diagonals of the body
 // As an arm that holds a pen, damped so that it does not swing.
 constexpr double kArmStiffness = 400, kArmDamping = 5;  ///< N/m, N s/m
 
+/// Of a body that nothing fixes, its own middle.
 Eigen::Vector3d middleOfSupport(const SceneBody& body) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int fixed = 0;
@@ -23,7 +26,26 @@ Eigen::Vector3d middleOfSupport(const SceneBody& body) {
       sum += body.mesh->points().col(v);
       ++fixed;
     }
-  return sum / std::max(fixed, 1);
+  if (fixed == 0) return body.mesh->points().rowwise().mean();
+  return sum / fixed;
+}
+
+/// Ends of the edges that belong to one triangle alone.
+std::vector<Eigen::Vector3d> rimOf(const SurfaceMesh& mesh) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto& corners : mesh.triangles().colwise())
+    for (int k = 0; k < 3; ++k) edges.emplace(corners[k], corners[(k + 1) % 3]);
+  std::vector<Eigen::Vector3d> rim;
+  for (const auto& [from, to] : edges)
+    if (edges.count({to, from}) == 0) rim.push_back(mesh.points().col(from));
+  return rim;
+}
+
+/// What a hand keeps away from. A half-space goes on beyond the rim of its surface, where nothing
+/// can be touched.
+std::vector<Eigen::Vector3d> avoidedBy(const SceneBody& body) {
+  if (body.greens->info().domain == Domain::HalfSpace) return rimOf(*body.mesh);
+  return {middleOfSupport(body)};
 }
 
 /// The vertex that lies farthest along a direction.
@@ -43,13 +65,14 @@ Eigen::Vector3d reachOf(const SceneTool& tool, const SurfaceMesh* toolMesh,
 }  // namespace
 
 int farthestFreeVertex(const SceneBody& body, const std::vector<Eigen::Vector3d>& taken) {
-  const Eigen::Vector3d support = middleOfSupport(body);
+  std::vector<Eigen::Vector3d> avoided = avoidedBy(body);
+  avoided.insert(avoided.end(), taken.begin(), taken.end());
   int farthest = -1;
   double largest = -1;
   for (int v = 0; v < body.mesh->vertexCount(); ++v) {
     if (body.greens->isFixed(v) || !body.greens->hasColumn(v)) continue;
-    double distance = (body.mesh->points().col(v) - support).norm();
-    for (const Eigen::Vector3d& place : taken)
+    double distance = HUGE_VAL;
+    for (const Eigen::Vector3d& place : avoided)
       distance = std::min(distance, (body.mesh->points().col(v) - place).norm());
     if (distance <= largest) continue;
     largest = distance;

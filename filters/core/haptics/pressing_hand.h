@@ -13,7 +13,8 @@
 namespace palpate {
 
 /// The free vertex, among those with Green's functions, that is farthest from the middle of the
-/// support and from places that are taken.
+/// support (of the body, if nothing is fixed; from the rim of a half-space's surface) and from
+/// places that are taken.
 /// @param taken  m, in the body's frame.
 /// @throws std::invalid_argument if there is none.
 int farthestFreeVertex(const SceneBody& body, const std::vector<Eigen::Vector3d>& taken = {});
