@@ -148,6 +148,7 @@ void printRendered(vtkInteractorStyleHaptic* style, int tool, const double* forc
   style->GetRenderedForce(tool, rendered);
   const double wanted = std::hypot(force[0], force[1], force[2]);
   if (std::hypot(rendered[0], rendered[1], rendered[2]) >= 0.999 * wanted) return;
+  for (double& component : rendered) component += 0.0;  // no negative zeros
   std::printf("         rendered %.6g %.6g %.6g N, limited or faded for safety\n", rendered[0],
               rendered[1], rendered[2]);
 }

@@ -77,6 +77,7 @@ class Headless(Program):
             printed = self.run_well(*self.scripted(PRESS, limits=limits), "--seconds", REST + 0.4)
             self.assertIn("sticks", printed)
             self.assertEqual("not rendered: its device's limits allow no force" in printed, told)
+            self.assertEqual("rendered 0 0 0 N, limited or faded for safety" in printed, told)
 
     def test_a_simulated_hand_presses_and_lifts(self):
         simulated = ("touch", self.model, "--device", "simulated", "--headless", "--seconds")

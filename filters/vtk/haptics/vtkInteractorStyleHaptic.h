@@ -19,9 +19,9 @@
  * w wireframe, s surface, v the stiffness as colours, n lets all contact begin anew, r resets camera and
  * contact.
  *
- * D. L. James and D. K. Pai 2001, sections 6 and 7, figures 8 and 9. Needs the Green's functions of
- * vtkBoundaryElementGreensFunctions. Methods that can fail return false and leave a sentence in
- * GetFailureMessage().
+ * D. L. James and D. K. Pai 2001, sections 6 and 7, figures 8 and 9. Needs the Green's functions of any
+ * filter that makes them, as vtkBoundaryElementGreensFunctions, but of no exterior. Methods that can fail
+ * return false and leave a sentence in GetFailureMessage().
  */
 
 #ifndef vtkInteractorStyleHaptic_h
