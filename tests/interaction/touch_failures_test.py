@@ -45,7 +45,8 @@ class Failures(Program):
         touch = ("touch", self.model, "--headless", "--seconds", 1, "--device")
         for name in ("banana", "mouses", "hid:", "hid:xyz:1", "hid:046d:c626z", "scripted"):
             self.run_badly(f"there is no device '{name}': choose mouse, scripted:FILE", *touch, name)
-        self.run_badly("the HID device is not there: `palpate devices` lists", *touch, "hid:0001:0002")
+        self.run_badly("the HID device 0001:0002 is not there: `palpate devices` lists", *touch,
+                       "hid:0001:0002")
         self.run_badly("the recording 'none.txt' cannot be opened", *touch, "scripted:none.txt")
 
     def test_of_arguments_say_how_to_mend_them(self):

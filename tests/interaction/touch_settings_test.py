@@ -186,7 +186,7 @@ class Settings(Touching):
     def test_of_a_device_that_is_not_there_fail_at_the_start(self):
         style = Touch(block_model())
         style.SetDeviceToHid(0x0001, 0x0002)
-        self.refuse(style, "the HID device is not there: `palpate devices` lists", style.Start)
+        self.refuse(style, "the HID device 0001:0002 is not there: `palpate devices` lists", style.Start)
         self.assertFalse(style.IsRunning())
         style.SetDeviceToMouse()
         self.assertTrue(style.RunHeadless(0.01))

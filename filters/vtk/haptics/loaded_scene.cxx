@@ -13,6 +13,7 @@
 #include "vtkPolyData.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -28,6 +29,14 @@ std::string number(double value)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+/// As `palpate devices` shows the numbers of one.
+std::string hexadecimal(std::uint16_t value)
+{
+  char text[8];
+  std::snprintf(text, sizeof text, "%04x", unsigned(value));
   return text;
 }
 
@@ -163,6 +172,9 @@ std::shared_ptr<HapticDevice> openHid(const SceneDevice& device)
       return openHidDevice(record);
     }
   }
-  throw std::runtime_error("the HID device is not there: `palpate devices` lists those that are");
+  const std::string which = device.vendor == 0
+    ? "a HID device that is known without a description"
+    : "the HID device " + hexadecimal(device.vendor) + ":" + hexadecimal(device.product);
+  throw std::runtime_error(which + " is not there: `palpate devices` lists those that are");
 }
 } // namespace palpate
