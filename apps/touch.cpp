@@ -88,9 +88,11 @@ void addDeviceOptions(CLI::App& command, TouchOptions& options) {
       "--device", options.device,
       "mouse, scripted:FILE, simulated (a hand that presses and lifts every 2 s), hid, or "
       "hid:VVVV:PPPP as `palpate devices` lists it");
-  requireBetween(command.add_option("--rate", options.rate,
-                                    "Ticks of the servo loop a second; 1000 by default"),
-                 250, 10000);
+  requireBetween(
+      command.add_option("--rate", options.rate,
+                         "Ticks of the servo loop a second; 1000 by default. A device that "
+                         "reports less than every second tick gets no steady force"),
+      250, 10000);
   requireWritable(command.add_option("--record", options.record,
                                      "Write the device's motion and its rate to this file: the "
                                      "first 120 seconds, and a warning of what is left out"),
