@@ -213,8 +213,8 @@ void MaskOptions::addTo(CLI::App& command) {
       ->check(CLI::IsMember({"vertex", "mean"}))
       ->capture_default_str();
   command.add_option("--rigid-stiffness", rigidStiffness,
-                     "Stiffness of fixed vertices and largest Frobenius norm of the stiffnesses "
-                     "shown, N/m; 0 for the stiffest free vertex");
+                     "Stiffness k of fixed vertices, N/m; none of a larger Frobenius norm than "
+                     "theirs, sqrt(3) k, is shown; 0 for the stiffest free vertex");
 }
 
 void MaskOptions::applyTo(vtkMaskedContactAlgorithm* filter) const {

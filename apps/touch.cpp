@@ -118,8 +118,8 @@ void addContactOptions(CLI::App& command, TouchOptions& options) {
   requireBetween(mask, 0, kFarthest);
   CLI::Option* stiffness =
       command.add_option("--rigid-stiffness", options.stiffnessLimit,
-                         "Largest Frobenius norm of the stiffness matrix that a point shows, N/m; "
-                         "0 for the stiffest free vertex");
+                         "Stiffness k of fixed vertices, N/m; points show none of a larger "
+                         "Frobenius norm than theirs, sqrt(3) k; 0 for the stiffest free vertex");
   requireBetween(stiffness, 0, 1e15);
   ball->excludes(mask)->excludes(stiffness);
   requireBetween(command.add_option("--contacts", options.contacts,

@@ -38,6 +38,14 @@ class Headless(Program):
         self.assertIn("at 0.05 0.05 0.1", printed)
         self.assertIn(f"ticks    {round((REST + 0.4) * RATE)}, 0 left out", printed)
 
+    def test_a_rigid_stiffness_bounds_the_frobenius_norm_of_what_a_point_shows(self):
+        pressed = (*self.scripted(PRESS), "--seconds", REST + 0.4)
+        for rigid in (5, 20):
+            printed = self.run_well(*pressed, "--rigid-stiffness", rigid)
+            shown = float(re.search(r"tool 0   force \S+ \S+ (\S+) N", printed)[1]) / 0.002
+            # Along the normal, in which it is stiffest, no less than were it alike in all directions.
+            self.assertTrue(rigid < shown < 3**0.5 * rigid, shown)
+
     def test_contacts_that_there_is_no_room_for_are_told_and_the_rest_is_rendered(self):
         ball = (*self.scripted(PRESS), "--seconds", REST + 0.4, "--tool-radius", 0.02)
         plenty, few = self.run_well(*ball), self.run_well(*ball, "--contacts", 2)

@@ -117,7 +117,8 @@ public:
 
   ///@{
   /**
-   * Most stiffness that a point shows, N/m; 0 (default) for the stiffest free vertex. Takes effect at once.
+   * k_Rigid, N/m, the stiffness of fixed vertices: points show none of a larger Frobenius norm than theirs,
+   * sqrt(3) k_Rigid. 0 (default) for the stiffest free vertex. Takes effect at once.
    */
   bool SetRigidStiffness(double stiffness);
   double GetRigidStiffness();
