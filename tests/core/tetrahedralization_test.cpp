@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "fem/solid_body.h"
+#include "mesh/edge_subdivision.h"
 #include "support/data_models.h"
 #include "support/refusals.h"
 #include "support/solids.h"
@@ -159,6 +160,19 @@ TEST(Tetrahedralization, CanBeAbortedBeforeItBegins) {
   EXPECT_TRUE(isRefused<Aborted>([&] { tetrahedralize(*icosphere(1).mesh(), 0, stop); },
                                  "aborted on request"));
   EXPECT_EQ(calls, 1);
+}
+
+// Of a regular mesh like this one slivers go round in CGAL's exudation for ever.
+TEST(Tetrahedralization, EndsOnRegularMeshes) {
+  const Shape shape = boundaryOf(kuhnBox({0.1, 0.1, 0.06}, {3, 3, 2}).mesh());
+  SurfaceMesh surface(shape.points, shape.triangles);
+  for (int level = 0; level < 2; ++level) {
+    const SubdivisionLevel finer = subdivideFlat(surface);
+    surface = SurfaceMesh(finer.points, finer.triangles);
+  }
+  const Tetrahedralization filled = tetrahedralize(surface);
+  EXPECT_NEAR(filled.mesh.volumes().sum(), 6e-4, 1e-9);
+  EXPECT_EQ(filled.newBoundaryPoints, 0);
 }
 
 }  // namespace

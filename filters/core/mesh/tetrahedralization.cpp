@@ -35,7 +35,8 @@ constexpr double kMostTetrahedra = 1e7;
 constexpr double kBallOverEdge = 0.3;
 constexpr double kRadiusOverEdge = 2;   // of a tetrahedron: Delaunay refinement ends from 2 on
 constexpr double kWantedDihedral = 12;  // degrees
-constexpr double kFlatVolume = 1e-9;    // over the longest edge cubed
+constexpr double kPatience = 10, kPatienceOfVertex = 0.02;  // s
+constexpr double kFlatVolume = 1e-9;                       // over the longest edge cubed
 
 /// The size of the protecting ball at each vertex.
 struct BallSizes {
@@ -82,10 +83,13 @@ Complex meshed(const SurfaceMesh& surface, double cellSize) {
   const Criteria criteria(parameters::edge_size = balls,
                           parameters::cell_radius_edge_ratio = kRadiusOverEdge,
                           parameters::cell_size = cellSize);
-  return CGAL::make_mesh_3<Complex>(
-      domain, criteria, parameters::features(domain),
-      parameters::perturb(parameters::sliver_bound = kWantedDihedral, parameters::time_limit = 0),
-      parameters::exude(parameters::sliver_bound = kWantedDihedral, parameters::time_limit = 0));
+  // On regular meshes exudation can go round and round; where it ends it takes a part of that.
+  const double patience = kPatience + kPatienceOfVertex * surface.vertexCount();
+  return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::features(domain),
+                                    parameters::perturb(parameters::sliver_bound = kWantedDihedral,
+                                                        parameters::time_limit = patience),
+                                    parameters::exude(parameters::sliver_bound = kWantedDihedral,
+                                                      parameters::time_limit = patience));
 }
 
 double volumeOverEdges(const Eigen::Matrix3Xd& points, const Eigen::Vector4i& cell) {
