@@ -15,7 +15,7 @@ import palpate
 from palpate.arrays import as_vtk
 from palpate import identification, measurement_tables
 from support.refused import Refusals
-from support.surfaces import failure_of, lower_cap, points_of, run, sphere
+from support.surfaces import failure_of, lower_cap, points_of, run, sphere, triangles_of
 
 YOUNG, POISSON = 2e4, 0.4
 
@@ -81,6 +81,29 @@ class Package(Folder):
                 palpate.array(again, name)
         self.assertEqual(palpate.array(again, "MeasuredDisplacement").shape, (250, 3))
         self.assertNotIn("identified", palpate.array(again, "GreensFunctionSource")[0])
+
+    def test_a_surface_that_its_filling_cuts_otherwise_is_that_of_the_filling(self):
+        kidney = palpate.remesh(palpate.refine(palpate.read(palpate.example("kidney"))), 0.02,
+                                keep_original=True)
+        with self.assertWarnsRegex(palpate.ModelWarning, "triangles of the surface are others now"):
+            filled = palpate.precompute(kidney, young=YOUNG, poisson=POISSON, method="fem",
+                                        estimate_error=False)
+        seen = palpate.simulate_measurements(filled)
+        for identify in (palpate.identify, palpate.identify_field):
+            settings = dict(method="fem") if identify is palpate.identify else dict(modes=5)
+            with self.assertWarnsRegex(palpate.ModelWarning, "of the surface are others now, with 0 new"):
+                found = identify(kidney, seen, folds=0, **settings)
+            model = found if identify is palpate.identify else found[0]
+            young, poisson = palpate.array(model, "IdentifiedParameters")[:, 0]
+            self.assertLess(abs(young / YOUNG - 1), 0.05)
+            np.testing.assert_array_equal(triangles_of(model), triangles_of(filled))
+            self.assertEqual(palpate.on_original(model).GetNumberOfPoints(), 82)
+            if model is found:  # of one material, so that the same comes from it
+                again = palpate.precompute(kidney, young=young, poisson=poisson, method="fem",
+                                           estimate_error=False)
+                np.testing.assert_allclose(
+                    palpate.greens_functions(model), palpate.greens_functions(again),
+                    atol=1e-12 * np.abs(palpate.greens_functions(again)).max())
 
     def test_a_press_seen_at_vertices_gives_its_modulus_back(self):
         model = identified()

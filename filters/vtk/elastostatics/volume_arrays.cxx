@@ -5,7 +5,7 @@
 
 #include "array_names.h"
 #include "conversion.h"
-#include "mesh/surface_locator.h"
+#include "mesh/surface_mesh.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -18,6 +18,7 @@
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <map>
@@ -178,15 +179,6 @@ const MaterialArrays* materialKindOf(vtkUnstructuredGrid* grid)
   return found;
 }
 
-vtkSmartPointer<vtkIdList> cornersAt(const SurfaceMesh& mesh, int triangle)
-{
-  auto corners = vtkSmartPointer<vtkIdList>::New();
-  for (int corner : mesh.triangles().col(triangle))
-  {
-    corners->InsertNextId(corner);
-  }
-  return corners;
-}
 /// Tetrahedra, and the grid's point behind each of theirs.
 struct GridTetrahedra
 {
@@ -348,60 +340,5 @@ std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& 
       .add(&compressibility, sizeof compressibility);
   }
   return fingerprint.value();
-}
-
-void replaceSurface(vtkPolyData* output, vtkPolyData* surface)
-{
-  output->CopyStructure(surface);
-  output->GetPointData()->ShallowCopy(surface->GetPointData());
-  output->GetCellData()->ShallowCopy(surface->GetCellData());
-  removeMeshResults(output);
-}
-
-vtkSmartPointer<vtkPolyData> boundaryOf(
-  const Tetrahedralization& filled, const std::shared_ptr<const SurfaceMesh>& mesh, vtkPolyData* surface)
-{
-  const Eigen::Matrix3Xi& triangles = filled.mesh.boundary();
-  const int kept = mesh->vertexCount(), count = kept + filled.newBoundaryPoints;
-  auto boundary = vtkSmartPointer<vtkPolyData>::New();
-  boundary->ShallowCopy(surface);
-  setSurface(boundary, filled.mesh.points().leftCols(count), triangles);
-
-  const SurfaceLocator locator(mesh);
-  std::vector<unsigned char> types = boundaryTypesOf(surface, true);
-  vtkPointData* points = boundary->GetPointData();
-  points->CopyAllOn();
-  points->InterpolateAllocate(surface->GetPointData(), count);
-  for (int v = 0; v < count; ++v)
-  {
-    if (v < kept)
-    {
-      points->CopyData(surface->GetPointData(), v, v);
-      continue;
-    }
-    const SurfacePoint place = locator.nearest(filled.mesh.points().col(v));
-    double weights[3] = { place.barycentric[0], place.barycentric[1], place.barycentric[2] };
-    points->InterpolatePoint(surface->GetPointData(), v, cornersAt(*mesh, place.triangle), weights);
-    bool isFixed = true;
-    for (int corner : mesh->triangles().col(place.triangle))
-    {
-      isFixed = isFixed && types[corner] != 0;
-    }
-    types.push_back(isFixed);
-  }
-  setBoundaryTypes(boundary, types);
-  vtkCellData* cells = boundary->GetCellData();
-  cells->CopyAllOn();
-  cells->CopyAllocate(surface->GetCellData(), triangles.cols());
-  for (Eigen::Index f = 0; f < triangles.cols(); ++f)
-  {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (int corner : triangles.col(f))
-    {
-      middle += filled.mesh.points().col(corner) / 3;
-    }
-    cells->CopyData(surface->GetCellData(), locator.nearest(middle).triangle, f);
-  }
-  return boundary;
 }
 } // namespace palpate::convert

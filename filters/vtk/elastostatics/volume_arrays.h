@@ -4,20 +4,18 @@
 #ifndef palpate_volume_arrays_h
 #define palpate_volume_arrays_h
 
-#include "mesh/surface_mesh.h"
-#include "mesh/tetrahedralization.h"
+#include "mesh/tetrahedral_mesh.h"
 #include "model/elasticity.h"
 
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-/// Tetrahedra and their materials from VTK's data, and surfaces that they bound. Not for wrapping. All
+/// Tetrahedra and their materials from VTK's data, and the surfaces that bound them. Not for wrapping. All
 /// functions throw std::invalid_argument with a sentence for data that cannot be used.
 namespace palpate::convert
 {
@@ -27,10 +25,6 @@ TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid);
 
 /// The boundary of a grid's tetrahedra, with the grid's point and field data.
 vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid);
-
-/// Puts another surface with its point and cell data in place of an output's own, and takes away what
-/// belonged to that.
-void replaceSurface(vtkPolyData* output, vtkPolyData* surface);
 
 /// Materials as the cell arrays of a grid give them (see vtkFiniteElementGreensFunctions).
 struct CellMaterials
@@ -44,12 +38,6 @@ CellMaterials materialsOf(vtkUnstructuredGrid* grid, const Material& otherwise);
 
 /// Hash of a grid's tetrahedra and of the materials that its own arrays give.
 std::uint64_t gridFingerprint(const TetrahedralMesh& mesh, const CellMaterials& materials);
-
-/// The boundary of what a surface was filled with, with the surface's point and cell data: those of its
-/// vertices, interpolated at new ones, and of the nearest triangle. A new vertex is fixed where all
-/// corners of that triangle are.
-vtkSmartPointer<vtkPolyData> boundaryOf(
-  const Tetrahedralization& filled, const std::shared_ptr<const SurfaceMesh>& mesh, vtkPolyData* surface);
 } // namespace palpate::convert
 
 #endif

@@ -5,8 +5,8 @@
 
 #include "conversion.h"
 #include "fem/finite_element_method.h"
+#include "filled_surface.h"
 #include "model_arrays.h"
-#include "original_arrays.h"
 #include "volume_arrays.h"
 
 #include "vtkInformation.h"
@@ -113,43 +113,30 @@ void vtkFiniteElementGreensFunctions::Compute(
     computed = this->Kept(given.fingerprint(),
       [&](vtkPolyData* arrays)
       {
-        const palpate::Tetrahedralization filled = palpate::tetrahedralize(
-          given.mesh(), this->CellSize, progress.part(0, 0.2).callback());
-        this->Filled = nullptr;
-        std::string warning;
-        if (filled.lostTriangles > 0)
+        const convert::FilledSurface filled = convert::fillSurface(
+          input, given.sharedMesh(), this->CellSize, progress.part(0, 0.2).callback());
+        this->Filled = filled.boundary;
+        if (this->Filled)
         {
-          this->Filled = convert::boundaryOf(filled, given.sharedMesh(), input);
           ofFilled.emplace(modelOf(this->Filled));
-          warning = std::to_string(filled.lostTriangles) + " of " +
-            std::to_string(given.mesh().triangleCount()) +
-            " triangles of the surface are others now, with " +
-            std::to_string(filled.newBoundaryPoints) +
-            " new vertices: those that its filling with tetrahedra has";
         }
         options.columns = this->Columns(input->GetNumberOfPoints());
         const palpate::ElasticModel& model = ofFilled ? *ofFilled : given;
         compute(model,
           palpate::SolidBody(
             model.mesh(), filled.mesh, { palpate::Elasticity(model.material()) }),
-          warning, arrays);
+          filled.warning, arrays);
       });
   }
   if (this->Filled)
   {
-    convert::replaceSurface(output, this->Filled);
+    if (!ofFilled)
+    {
+      ofFilled.emplace(modelOf(this->Filled));
+    }
+    convert::setBoundary(output, input, this->Filled, ofFilled->sharedMesh());
   }
   convert::removeResponses(output);
-  if (this->Filled && convert::hasOriginal(input))
-  {
-    convert::setOriginal(output,
-      ofFilled ? ofFilled->sharedMesh() : modelOf(this->Filled).sharedMesh(), convert::originalOf(input));
-  }
   convert::shareGreensFunctions(computed, output, given.material().youngsModulus());
-  if (!this->Filled)
-  {
-    this->MarkPatches(input, given, output);
-    return;
-  }
-  this->MarkPatches(this->Filled, ofFilled ? *ofFilled : modelOf(this->Filled), output);
+  this->MarkPatches(this->Filled ? this->Filled.Get() : input, ofFilled ? *ofFilled : given, output);
 }

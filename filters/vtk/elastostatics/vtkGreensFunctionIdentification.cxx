@@ -7,6 +7,7 @@
 #include "bem/boundary_element_method.h"
 #include "conversion.h"
 #include "fem/finite_element_method.h"
+#include "filled_surface.h"
 #include "identification/next_probes.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 vtkStandardNewMacro(vtkGreensFunctionIdentification);
 
@@ -71,10 +73,12 @@ struct vtkGreensFunctionIdentification::Body
 {
   const vtkGreensFunctionIdentification& Filter;
   palpate::ElasticModel Given;
+  vtkSmartPointer<vtkPolyData> Surface; // the input, or the boundary of what fills it
   std::optional<palpate::TetrahedralMesh> Mesh;
   std::vector<int> RegionOfCell;
   int Regions = 1;
   std::vector<int> Columns; // empty for all free nodes
+  std::string Warning;      // of the filling
 
   palpate::ElasticModel ModelOf(const palpate::Material& material) const
   {
@@ -178,11 +182,11 @@ palpate::Measurements vtkGreensFunctionIdentification::MeasurementsOn(const palp
 }
 
 vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
-  vtkPolyData* surface, vtkUnstructuredGrid* grid) const
+  vtkPolyData* surface, vtkUnstructuredGrid* grid, const palpate::Progress& progress) const
 {
   namespace convert = palpate::convert;
-  Body body{ *this, convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior), {}, {}, 1,
-    {} };
+  Body body{ *this, convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior), surface, {},
+    {}, 1, {}, {} };
   const bool isSolid = this->Method == FINITE_ELEMENTS;
   if (grid && !isSolid)
   {
@@ -195,13 +199,15 @@ vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   }
   else if (isSolid)
   {
-    const palpate::Tetrahedralization filled = palpate::tetrahedralize(body.Given.mesh());
-    if (filled.lostTriangles > 0)
+    convert::FilledSurface filled =
+      convert::fillSurface(surface, body.Given.sharedMesh(), 0, progress.callback());
+    if (filled.boundary)
     {
-      palpate::refuse("the filling with tetrahedra has other triangles than the surface (",
-        filled.lostTriangles, "): give a volume mesh, whose boundary the surface is");
+      body.Surface = filled.boundary;
+      body.Given = convert::modelOf(body.Surface, this->SmoothAngle, palpate::Domain::Interior);
+      body.Warning = filled.warning;
     }
-    body.Mesh = filled.mesh;
+    body.Mesh = std::move(filled.mesh);
   }
   if (this->YieldingSupport)
   {
@@ -309,13 +315,14 @@ void vtkGreensFunctionIdentification::Compute(
     palpate::refuse("identification computes the Green's functions of all free vertices: leave columns "
                     "and patch columns out");
   }
-  const Body body = this->BodyOf(input, vtkUnstructuredGrid::GetData(inputs[1]));
+  const Body body =
+    this->BodyOf(input, vtkUnstructuredGrid::GetData(inputs[1]), progress.part(0, 0.05));
   const palpate::SurfaceMesh& mesh = body.Given.mesh();
   std::optional<palpate::Registration> registration;
   const palpate::Measurements measurements =
     this->MeasurementsOn(mesh, vtkPolyData::GetData(inputs[2]), registration);
   const palpate::MaterialIdentifier identifier =
-    this->IdentifierFor(body, measurements, progress.part(0, 0.6));
+    this->IdentifierFor(body, measurements, progress.part(0.05, 0.6));
   const palpate::MaterialIdentification result =
     identifier.identify(measurements, progress.part(0.6, 0.65));
 
@@ -325,11 +332,19 @@ void vtkGreensFunctionIdentification::Compute(
     " displacements under ", measurements.probes.size(), " probes (",
     this->MeasurementFileName.empty() ? "a table" : this->MeasurementFileName, ")");
   std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  if (!body.Warning.empty())
+  {
+    warnings.push_back(body.Warning);
+  }
   warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   const palpate::Material& material = result.materials.front();
   const palpate::ElasticModel model = body.ModelOf(material);
   vtkNew<vtkPolyData> computed;
   convert::setGreensFunctions(computed, model, std::move(greens));
+  if (body.Surface != input)
+  {
+    convert::setBoundary(output, input, body.Surface, model.sharedMesh());
+  }
   convert::removeResponses(output);
   convert::setFieldNumber(output, palpate::arrays::YoungsModulus, material.youngsModulus());
   convert::setFieldNumber(output, palpate::arrays::PoissonRatio, material.poissonRatio());
@@ -343,5 +358,5 @@ void vtkGreensFunctionIdentification::Compute(
   {
     convert::setRegistration(output, *registration);
   }
-  this->MarkPatches(input, model, output);
+  this->MarkPatches(body.Surface, model, output);
 }

@@ -7,8 +7,10 @@
  * Input 0 is a closed triangle surface with the point array `BoundaryType` (vtkReferenceBoundaryConditions;
  * its material is not looked at). Input 1 is optional, for finite elements: an unstructured grid of
  * tetrahedra whose boundary the surface is; its cell array `MaterialRegion` (int from 0) says which of them
- * have a Young's modulus of their own. The measurements are a file (palpate::readMeasurementFile), or
- * input 2: polydata with the table as field data (see array_names.h, `MeasurementProbe` and on).
+ * have a Young's modulus of their own. Without it the surface is filled with tetrahedra, and replaced by
+ * their boundary where that has other triangles, with a warning. The measurements are a file
+ * (palpate::readMeasurementFile), or input 2: polydata with the table as field data (see array_names.h,
+ * `MeasurementProbe` and on).
  *
  * Young's modulus is identified always, Poisson's ratio unless it is given, the yielding of the support
  * and the rigid registration of the measurements to the surface if asked for. Method: robust least squares
@@ -192,7 +194,8 @@ private:
   void operator=(const vtkGreensFunctionIdentification&) = delete;
 
   struct Body;
-  Body BodyOf(vtkPolyData* surface, vtkUnstructuredGrid* grid) const;
+  Body BodyOf(
+    vtkPolyData* surface, vtkUnstructuredGrid* grid, const palpate::Progress& progress) const;
   palpate::IdentificationOptions OptionsFor(const Body& body) const;
   palpate::MaterialIdentifier IdentifierFor(const Body& body, const palpate::Measurements& measurements,
     const palpate::Progress& progress) const;

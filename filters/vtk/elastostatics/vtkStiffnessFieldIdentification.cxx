@@ -7,6 +7,7 @@
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "fem/modulus_response.h"
+#include "filled_surface.h"
 #include "identification/registration.h"
 #include "identification/stiffness_field.h"
 #include "identification/stiffness_modes.h"
@@ -142,20 +143,22 @@ void vtkStiffnessFieldIdentification::Compute(
     convert::modelOf(input, this->SmoothAngle, palpate::Domain::Interior);
   std::optional<palpate::TetrahedralMesh> mesh;
   vtkSmartPointer<vtkPolyData> surface = input;
+  std::string warning;
   if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(inputs[1]))
   {
     mesh = convert::tetrahedraOf(grid);
   }
   else
   {
-    const palpate::Tetrahedralization filled =
-      palpate::tetrahedralize(model.mesh(), 0, progress.part(0, 0.1).callback());
-    if (filled.lostTriangles > 0)
+    convert::FilledSurface filled =
+      convert::fillSurface(input, model.sharedMesh(), 0, progress.part(0, 0.1).callback());
+    if (filled.boundary)
     {
-      surface = convert::boundaryOf(filled, model.sharedMesh(), input);
+      surface = filled.boundary;
       model = convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior);
     }
-    mesh = filled.mesh;
+    mesh = std::move(filled.mesh);
+    warning = filled.warning;
   }
   std::optional<palpate::Registration> registration;
   const palpate::Measurements measurements =
@@ -198,6 +201,10 @@ void vtkStiffnessFieldIdentification::Compute(
     " modes identified from ", measurements.displacements.size(), " displacements under ",
     measurements.probes.size(), " probes");
   std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  if (!warning.empty())
+  {
+    warnings.push_back(warning);
+  }
   if (this->EstimateError)
   {
     // By the same body of one material: what the mesh does.
@@ -213,7 +220,7 @@ void vtkStiffnessFieldIdentification::Compute(
   convert::setGreensFunctions(computed, found, std::move(greens));
   if (surface != input)
   {
-    convert::replaceSurface(output, surface);
+    convert::setBoundary(output, input, surface, model.sharedMesh());
   }
   convert::removeResponses(output);
   convert::setFieldNumber(output, palpate::arrays::YoungsModulus, mean.youngsModulus());
