@@ -147,7 +147,8 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
         unknowns the measurements determine.
     volume : vtkUnstructuredGrid
         The tetrahedra with cell arrays `YoungsModulus` (Pa), `PoissonRatio` and `LogModulusDeviation`, the
-        standard deviation of ln E that is left. `precompute` takes it as its surface.
+        standard deviation of ln E that is left, and with support and mean material: `precompute(volume,
+        method="fem")` gives the model again.
 
     Raises
     ------

@@ -43,7 +43,7 @@ THICKNESS = "Thickness"
 __all__ = ["precompute"]
 
 
-def precompute(surface, young, poisson, fixed=None, method="bem", precision="double",
+def precompute(surface, young=None, poisson=None, fixed=None, method="bem", precision="double",
                tolerance=None, columns=None, domain="interior", reciprocal=True,
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
@@ -60,9 +60,9 @@ def precompute(surface, young, poisson, fixed=None, method="bem", precision="dou
         side that it is touched from. For finite elements also the tetrahedra themselves, whose boundary
         is then the surface: its n vertices are the grid's points on it, in their order.
         Lengths in metres, or in any one unit.
-    young : float or None
+    young : float, optional
         Young's modulus, Pa, > 0. None takes the surface's field data.
-    poisson : float or None
+    poisson : float, optional
         Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
     fixed : array_like of bool, optional
         n values, where the body is held. None takes the surface's point array `BoundaryType`.

@@ -23,8 +23,10 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -74,9 +76,28 @@ void warnOfMesh(
   }
 }
 
-void setField(vtkUnstructuredGrid* grid, const palpate::TetrahedralMesh& mesh,
+/// Where the body is fixed, at its vertices; points inside are free.
+void addBoundaryTypes(
+  vtkUnstructuredGrid* grid, const palpate::SolidBody& body, const palpate::BoundaryConditions& conditions)
+{
+  vtkNew<vtkUnsignedCharArray> types;
+  types->SetName(palpate::arrays::BoundaryType);
+  types->SetNumberOfTuples(body.mesh().pointCount());
+  types->Fill(0);
+  for (int vertex : conditions.fixedNodes())
+  {
+    types->SetValue(body.pointOfVertex(vertex), 1);
+  }
+  grid->GetPointData()->AddArray(types);
+}
+
+/// The body as vtkFiniteElementGreensFunctions takes it, with what is left open.
+/// @param mean  what is one to all, besides the moduli of cells.
+void setField(vtkUnstructuredGrid* grid, const palpate::SolidBody& body,
+  const palpate::BoundaryConditions& conditions, const palpate::Material& mean,
   const palpate::StiffnessField& field)
 {
+  const palpate::TetrahedralMesh& mesh = body.mesh();
   grid->Initialize();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -91,11 +112,13 @@ void setField(vtkUnstructuredGrid* grid, const palpate::TetrahedralMesh& mesh,
     const vtkIdType corners[] = { cell[0], cell[1], cell[2], cell[3] };
     grid->InsertNextCell(VTK_TETRA, 4, corners);
   }
-  const double poisson = field.fit.materials.front().poissonRatio();
   addCellNumbers(grid, palpate::arrays::YoungsModulus, field.modulus);
-  addCellNumbers(
-    grid, palpate::arrays::PoissonRatio, Eigen::VectorXd::Constant(mesh.cellCount(), poisson));
+  addCellNumbers(grid, palpate::arrays::PoissonRatio,
+    Eigen::VectorXd::Constant(mesh.cellCount(), mean.poissonRatio()));
   addCellNumbers(grid, palpate::arrays::LogModulusDeviation, field.deviation);
+  addBoundaryTypes(grid, body, conditions);
+  palpate::convert::setFieldNumber(grid, palpate::arrays::YoungsModulus, mean.youngsModulus());
+  palpate::convert::setFieldNumber(grid, palpate::arrays::PoissonRatio, mean.poissonRatio());
 }
 } // namespace
 
@@ -193,10 +216,9 @@ void vtkStiffnessFieldIdentification::Compute(
     model.sharedMesh(), mean, model.conditions(), model.smoothPatches());
   palpate::FiniteElementOptions how;
   how.reciprocal = this->Reciprocal;
-  palpate::ComputedGreensFunctions greens =
-    palpate::computeFiniteElementGreensFunctions(found,
-      response.body(field.modulus, mean.poissonRatio()), how,
-      progress.part(0.7, this->EstimateError ? 0.85 : 1).callback());
+  const palpate::SolidBody body = response.body(field.modulus, mean.poissonRatio());
+  palpate::ComputedGreensFunctions greens = palpate::computeFiniteElementGreensFunctions(
+    found, body, how, progress.part(0.7, this->EstimateError ? 0.85 : 1).callback());
   greens.info.source += palpate::sentence("; a field of ", response.modes().cols(),
     " modes identified from ", measurements.displacements.size(), " displacements under ",
     measurements.probes.size(), " probes");
@@ -235,5 +257,6 @@ void vtkStiffnessFieldIdentification::Compute(
     convert::setRegistration(output, *registration);
   }
   this->MarkPatches(surface, found, output);
-  setField(vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1)), *mesh, field);
+  setField(vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1)), body, found.conditions(),
+    mean, field);
 }

@@ -14,8 +14,8 @@
  * Output 0 is the model, as of the base class; its `IdentifiedParameters` are the mean Young's modulus and
  * Poisson's ratio, and its surface is that of the filling with tetrahedra where these need other triangles.
  * Output 1 has the tetrahedra with the cell arrays `YoungsModulus` (Pa), `PoissonRatio` and
- * `LogModulusDeviation`, the standard deviation of ln E that is left; vtkFiniteElementGreensFunctions takes
- * it as it is. Time goes with a factorisation, and a solution a probe and mode, for each of some ten steps.
+ * `LogModulusDeviation`, the standard deviation of ln E that is left, the point array `BoundaryType` and the
+ * mean material as field data: by vtkSolidBoundary vtkFiniteElementGreensFunctions takes it as it is. Time goes with a factorisation, and a solution a probe and mode, for each of some ten steps.
  */
 
 #ifndef vtkStiffnessFieldIdentification_h
