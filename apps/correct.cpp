@@ -58,18 +58,13 @@ void addOptions(CLI::App& command, Options& o) {
       "  palpate correct prior.vtp part_model.vtp --measurements rig.csv");
 }
 
-void print(vtkPolyData* model) {
+void print(vtkPolyData* model, const MeasurementOptions& measurements) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
   printRow("factor on the prior's compliance",
            number(model->GetFieldData()->GetArray("IdentifiedParameters")->GetComponent(0, 0)));
   printRow("residuals", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m (rms)");
-  vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
-  int count = 0;
-  for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
-    count += outliers->GetComponent(i, 0) != 0;
-  printRow("outliers",
-           std::to_string(count) + " of " + std::to_string(outliers->GetNumberOfTuples()));
+  printRow("outliers", measurements.outliersOf(model));
   printRow("smoothing", number(fieldNumber(model, "CorrectionSmoothing", -1), 3));
   const double error = fieldNumber(model, "HoldOutError", -1),
                prior = fieldNumber(model, "PriorHoldOutError", -1);
@@ -98,7 +93,7 @@ void addCorrect(CLI::App& program) {
     writeSurface(model, options->output);
     options->report.write(
         [&](const RunDescription& run) { return identificationPage(model, nullptr, run); });
-    print(model);
+    print(model, options->measurements);
     printWarnings(model);
   });
 }

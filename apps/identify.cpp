@@ -16,11 +16,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 
 #include "commands.h"
+#include "file_kinds.h"
 #include "finite_check.h"
 #include "measurement_options.h"
 #include "report/identification_page.h"
@@ -150,11 +150,6 @@ void addOptions(CLI::App& command, Options& o) {
       "`palpate measure` makes such tables of a model, to try this on.");
 }
 
-bool isVolumeFile(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".vtu" || extension == ".vtk";
-}
-
 /// Sets the surface with its support, and what fills it if the input does.
 void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
   vtkNew<vtkReferenceBoundaryConditions> conditions;
@@ -227,22 +222,6 @@ void printProbes(vtkPolyData* model) {
   }
 }
 
-/// Which displacements were left out, by their lines.
-std::string outliersOf(vtkPolyData* model, const std::string& rowWord) {
-  constexpr int most = 12;
-  vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
-  std::string text;
-  int count = 0;
-  for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
-    if (outliers->GetComponent(i, 0) != 0 && ++count <= most)
-      text += (count > 1 ? ", " : "") + number(component(model, "MeasurementRow", i), 9);
-  if (count > most) text += " and " + std::to_string(count - most) + " more";
-  return count == 0
-             ? "none"
-             : std::to_string(count) + " of " + std::to_string(outliers->GetNumberOfTuples()) +
-                   ": " + rowWord + " " + text;
-}
-
 /// Probes that would tell most, and the deviations with all up to each.
 void printNextProbes(vtkPolyData* model) {
   vtkDataArray* vertices = model->GetFieldData()->GetArray("NextProbeVertex");
@@ -283,7 +262,7 @@ void writeField(vtkUnstructuredGrid* grid, const std::string& path) {
   });
 }
 
-void printModel(vtkPolyData* model, const std::string& rowWord) {
+void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
   printParameters(model);
@@ -294,7 +273,7 @@ void printModel(vtkPolyData* model, const std::string& rowWord) {
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     printRow("noise over that given", number(misfit, 3));
   printProbes(model);
-  printRow("outliers", outliersOf(model, rowWord));
+  printRow("outliers", measurements.outliersOf(model));
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)
     printRow("error at probes left out", percent(error) + ", noise and all; fitted ones " +
                                              percent(fieldNumber(model, "FitError", -1)));
@@ -332,7 +311,7 @@ void addIdentify(CLI::App& program) {
     options->report.write([&](const RunDescription& run) {
       return identificationPage(model, isField ? field : nullptr, run);
     });
-    printModel(model, isPolydata(options->measurements.table) ? "tuples" : "lines");
+    printModel(model, options->measurements);
     if (isField) printField(model, field);
     printWarnings(model);
   });

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "file_kinds.h"
 #include "finite_check.h"
 #include "identification/measurement_file.h"
 #include "terminal.h"
@@ -39,7 +40,7 @@ void addOptions(CLI::App& command, Options& o) {
   requireWritable(output, "measurements", "");
   output->check(CLI::Validator(
       [](const std::string& name) -> std::string {
-        const std::string ending = std::filesystem::path(name).extension().string();
+        const std::string ending = endingOf(name);
         return ending == ".csv" || ending == ".vtp"
                    ? ""
                    : "measurements are written as .csv or .vtp: choose a name that ends so, not " +
@@ -115,7 +116,7 @@ void addMeasure(CLI::App& program) {
     rig->SetInputData(readSurface(options->input));
     const auto table = run(rig);
     const Measurements measurements = convert::measurementsOf(table);
-    if (std::filesystem::path(options->output).extension() == ".vtp")
+    if (endingOf(options->output) == ".vtp")
       writeSurface(table, options->output);
     else
       writeMeasurementFile(options->output, measurements);

@@ -3,16 +3,15 @@
 
 #include "measurement_options.h"
 
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "finite_check.h"
+#include "terminal.h"
 
 namespace palpate::app {
-
-bool isPolydata(const std::string& table) {
-  return std::filesystem::path(table).extension() == ".vtp";
-}
 
 void TableOptions::addTo(CLI::App& command) {
   command
@@ -29,12 +28,28 @@ void TableOptions::addTo(CLI::App& command) {
 
 void MeasurementOptions::addTo(CLI::App& command) {
   command
-      .add_option("--measurements", table,
-                  "Displacements under known forces: a table (.csv), or a .vtp that carries it")
+      .add_option(
+          "--measurements", table,
+          "Displacements under known forces: a table (.csv), or a .vtp or .vtu that carries it")
       ->required();
   reading.addTo(command);
   command.add_option("--force-unit", forceUnit, "Of the table's forces: N, mN, kN, MN, lbf or kgf")
       ->capture_default_str();
+}
+
+std::string MeasurementOptions::outliersOf(vtkPolyData* model) const {
+  constexpr int most = 12;
+  vtkDataArray* outliers = model->GetFieldData()->GetArray("MeasurementOutlier");
+  vtkDataArray* rows = model->GetFieldData()->GetArray("MeasurementRow");
+  std::string text;
+  int count = 0;
+  for (vtkIdType i = 0; i < outliers->GetNumberOfTuples(); ++i)
+    if (outliers->GetComponent(i, 0) != 0 && ++count <= most)
+      text += (count > 1 ? ", " : "") + number(rows->GetComponent(i, 0), 9);
+  if (count == 0) return "none";
+  if (count > most) text += " and " + std::to_string(count - most) + " more";
+  return std::to_string(count) + " of " + std::to_string(outliers->GetNumberOfTuples()) + ": " +
+         (isTableInArrays(table) ? "tuples " : "lines ") + text;
 }
 
 }  // namespace palpate::app

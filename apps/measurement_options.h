@@ -8,14 +8,13 @@
 
 #include <string>
 
+#include "file_kinds.h"
+
 namespace CLI {
 class App;
 }
 
 namespace palpate::app {
-
-/// Whether a table is carried by polydata, not written in text.
-bool isPolydata(const std::string& table);
 
 /// Options of a subcommand for a table of displacements: how it is read.
 struct TableOptions {
@@ -33,14 +32,17 @@ struct MeasurementOptions {
   /// @param port  of the filter's input that takes a table.
   template <class Filter>
   void applyTo(Filter* filter, int port) const {
-    if (isPolydata(table))
-      filter->SetInputData(port, readSurface(table));
+    if (isTableInArrays(table))
+      filter->SetInputData(port, readTable(table));
     else
       filter->SetMeasurementFileName(table.c_str());
     filter->SetLengthUnit(reading.lengthUnit.c_str());
     filter->SetForceUnit(forceUnit.c_str());
     filter->SetPlaceTolerance(reading.placeTolerance);
   }
+
+  /// Which displacements of its table a model that was found from it left out, by their lines.
+  std::string outliersOf(vtkPolyData* model) const;
 };
 
 }  // namespace palpate::app

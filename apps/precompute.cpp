@@ -20,13 +20,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "commands.h"
+#include "file_kinds.h"
 #include "subdivision_option.h"
 #include "support_options.h"
 #include "terminal.h"
@@ -292,11 +292,6 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> method(const Options& o) {
   }
   setMethod(filter, o);
   return filter;
-}
-
-bool isVolumeFile(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".vtu" || extension == ".vtk";
 }
 
 /// Sets the surface with its support, and what fills it if the input does.

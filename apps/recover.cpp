@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "file_kinds.h"
 #include "finite_check.h"
 #include "measurement_options.h"
 #include "picture/picture.h"
@@ -36,9 +37,9 @@ struct Options {
 void addOptions(CLI::App& command, Options& o) {
   command.add_option("input", o.input, "A model from `palpate precompute`")->required();
   command
-      .add_option(
-          "table", o.table,
-          "Displacements of points of its surface: a table (.csv), or a .vtp that carries it")
+      .add_option("table", o.table,
+                  "Displacements of points of its surface: a table (.csv), or a .vtp or .vtu that "
+                  "carries it")
       ->required();
   requireWritable(command
                       .add_option("output", o.output,
@@ -161,8 +162,8 @@ void addRecover(CLI::App& program) {
     options->picture.requireSensible();
     vtkNew<vtkContactRecovery> filter;
     filter->SetInputData(readSurface(options->input));
-    if (isPolydata(options->table))
-      filter->SetInputData(1, readSurface(options->table));
+    if (isTableInArrays(options->table))
+      filter->SetInputData(1, readTable(options->table));
     else
       filter->SetDisplacementFileName(options->table.c_str());
     filter->SetLengthUnit(options->reading.lengthUnit.c_str());

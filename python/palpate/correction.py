@@ -23,7 +23,7 @@ def correct(model, measurements, *, modes=0, smoothing=None, folds=5, keep_outli
     model : vtkPolyData
         The prior, from `precompute`, `identify` or an import, with the Green's functions of all its free
         vertices.
-    measurements : str, path-like or vtkPolyData
+    measurements : str, path-like, vtkPolyData or vtkUnstructuredGrid
         A table as for `identify`.
     modes : int
         Correct in so many leading modes of the prior's compliance; 0 for all.

@@ -27,9 +27,9 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     ----------
     surface : vtkPolyData or vtkUnstructuredGrid
         The body at rest: a closed triangle surface of n vertices, or with method="fem" tetrahedra.
-    measurements : str, path-like or vtkPolyData
-        A table: a file (`palpate identify --help` tells its columns), or polydata that carry it as
-        field arrays, such as from `measurement_table` and `simulate_measurements`.
+    measurements : str, path-like, vtkPolyData or vtkUnstructuredGrid
+        A table: a text file (`palpate identify --help` tells its columns), or data that carry it as
+        field arrays, such as from `measurement_table` and `simulate_measurements`, or their .vtp or .vtu.
     poisson : float, optional
         Poisson's ratio where it is known. By default it is identified.
     poisson_range : (float, float), optional

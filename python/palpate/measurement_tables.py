@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of measurements."""
 
+import os
+
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 from .arguments import (flag, number, numbers, progress_callback, surface_of, unit_name, vector,
                         whole_number)
 from .arrays import as_vtk
 from .errors import Error, run
-from .files import is_path, path_of
+from .files import is_path, path_of, read_with
 from .PalpateElastostatics import vtkRigSimulation
+from .PalpateIO import vtkMeasurementTableReader
 
 MOST = 2**31 - 1
 
@@ -192,13 +195,21 @@ def set_measurements(filter, port, measurements, length_unit, force_unit):
 
 
 def set_table(filter, port, table, set_file_name, what):
+    """A table as an input where VTK's data carry it, else by its file."""
     if is_path(table):
-        set_file_name(path_of(table))
+        if os.fsdecode(path_of(table)).lower().endswith((".vtp", ".vtu")):
+            filter.SetInputData(port, read_with(vtkMeasurementTableReader(), table))
+        else:
+            set_file_name(path_of(table))
     elif isinstance(table, vtkPolyData):
         filter.SetInputData(port, table)
+    elif isinstance(table, vtkUnstructuredGrid):
+        carrier = vtkPolyData()
+        carrier.GetFieldData().ShallowCopy(table.GetFieldData())
+        filter.SetInputData(port, carrier)
     else:
-        raise Error(f"{what} must be a file or a vtkPolyData that carries their table, not "
-                    f"{type(table).__name__}")
+        raise Error(f"{what} must be a file or a vtkPolyData or vtkUnstructuredGrid that carries their "
+                    f"table, not {type(table).__name__}")
 
 
 def add_tuples(table, name, values, shape, what):

@@ -19,10 +19,10 @@ def recover_contacts(model, displacements, *, probe=None, friction=0.5, noise=No
     ----------
     model : vtkPolyData
         The body, from `precompute`.
-    displacements : str, path-like or vtkPolyData
-        A table: a file (`palpate recover --help` tells its columns), or polydata that carry it as
+    displacements : str, path-like, vtkPolyData or vtkUnstructuredGrid
+        A table: a text file (`palpate recover --help` tells its columns), or data that carry it as
         field arrays, such as from `displacement_table` or `simulate_measurements`, whose forces are
-        passed over.
+        passed over, or their .vtp or .vtu.
     probe : str, optional
         Whose displacements, where the table has those of several.
     friction : float

@@ -80,14 +80,39 @@ TEST(MeasurementFile, WordsMayBeQuoted) {
   EXPECT_EQ(m.displacements[1].probe, 0);
 }
 
+TEST(MeasurementFile, NamesMayBeInCapitals) {
+  const Measurements m =
+      read(with("probe,contact_vertex,radius,force_x,force_y,force_z,x,y,z,u_x",
+                "Probe,CONTACT_VERTEX,Radius,Force_X,force_y,force_z,X,Y,Z,U_x"));
+  ASSERT_EQ(m.probes.size(), 2u);
+  EXPECT_EQ(m.probes[0].force.z(), -2);
+  EXPECT_EQ(m.displacements[0].displacement.x(), 1e-3);
+}
+
+// Between blanks nothing can be empty.
+TEST(MeasurementFile, GapsAreEmptyBetweenCommas) {
+  EXPECT_TRUE(isRefused(
+      [] {
+        read(
+            "probe contact_vertex force_x force_y force_z vertex u_x u_y u_z\n"
+            "1 0 0 0 1 2 NA 0 1e-3\n");
+      },
+      "line 2: 'NA' is not a number: where u_x was not measured, separate columns by commas and "
+      "leave it empty"));
+}
+
 TEST(MeasurementFile, WhatIsWrongIsNamedByLine) {
   const std::pair<std::string, std::string> cases[] = {
       {with("u_z", "uz"), "line 2: there is no column 'uz'"},
+      {with("u_z", "uz"), "the first line names those of probe, contact_vertex, contact_x .. _z"},
+      {with("u_z", "U_Y"), "line 2: the column u_y is there twice"},
       {with("u_z", "u_y"), "line 2: the column u_y is there twice"},
       {with("probe", "radius"), "is there twice"},
       {with("force_z", "vertex"), "line 2: forces are missing"},
-      {with("-2e-3", "nan"), "line 3: 'nan' is not a finite number"},
-      {with("-2e-3", "ten"), "line 3: 'ten' is not a number"},
+      {with("-2e-3", "nan"),
+       "line 3: 'nan' is not a finite number: where u_z was not measured, leave it empty"},
+      {with("-2e-3", "ten"),
+       "line 3: 'ten' is not a number: where u_z was not measured, leave it empty"},
       {with("-2e-3,1e-5", "-2e-3"), "line 3: there are 12 words, but 13 columns"},
       {with("a,,,", "a,1,,"), "line 4: the contact of probe 'a' differs from that in its first"},
       {with("b,3,0,1,0,0", "b,3,0,0,0,0"), "probe b has no force"},

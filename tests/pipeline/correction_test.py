@@ -4,6 +4,7 @@
 
 import doctest
 import functools
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,6 +14,7 @@ from palpate import correction
 from palpate.arrays import as_vtk
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, run, sphere
+from support.tables import write_table
 
 
 def held_sphere():
@@ -61,6 +63,21 @@ class Correction(Refusals):
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(sentence, done.stderr.lower())
             self.assertFalse(out.exists())
+
+    def test_names_outliers_in_tables_of_any_kind(self):
+        prior, out = self.folder / "prior.vtp", self.folder / "out.vtp"
+        palpate.write(body(0.1), prior)
+        spoilt = palpate.simulate_measurements(body(), probes=20, radius=0.4, outliers=0.05)
+        expected = palpate.array(palpate.correct(body(0.1), spoilt, smoothing=0.1), "MeasurementOutlier")
+        self.assertGreater(expected.sum(), 20)
+        for name in ("rig.vtu", "Rig.VTP"):
+            rig = write_table(spoilt, self.folder / name)
+            done = run("correct", prior, out, "--measurements", rig, "--smoothing", 0.1)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said = re.search(r"outliers +(\d+) of 1000: tuples (.*) and (\d+) more", done.stdout)
+            self.assertEqual(int(said[1]), expected.sum())
+            self.assertEqual(int(said[3]), expected.sum() - 12)
+            self.assertEqual([int(i) for i in said[2].split(", ")], list(expected.nonzero()[0][:12]))
 
     def test_refuses_what_cannot_be(self):
         self.refused("no Green's functions", palpate.correct, held_sphere(), table())

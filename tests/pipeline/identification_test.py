@@ -16,6 +16,7 @@ from palpate.arrays import as_vtk
 from palpate import identification, measurement_tables
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, points_of, run, sphere, triangles_of
+from support.tables import carrier_of, write_table
 
 YOUNG, POISSON = 2e4, 0.4
 
@@ -176,7 +177,8 @@ class Package(Folder):
         self.refused("no unit of length 'miles'", palpate.identify, held_sphere(), table(),
                      length_unit="miles")
         self.refused("there is no loss 'l1'", palpate.identify, held_sphere(), table(), loss="l1")
-        self.refused("there is no such file", palpate.identify, held_sphere(), self.folder / "no.csv")
+        for name in ("no.csv", "no.vtp", "no.VTU"):
+            self.refused("there is no such file", palpate.identify, held_sphere(), self.folder / name)
         self.refused("give one of the two", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 0, 1]],
                      contact_vertices=[0])
         self.refused("forces must be", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 1]],
@@ -185,6 +187,19 @@ class Package(Folder):
         self.refused("tuple 1 repeats tuple 0", palpate.identify, held_sphere(),
                      palpate.measurement_table([0, 0], [[0, 0, 1e-3]] * 2, [[0, 0, 1]],
                                                contact_vertices=[0], marker_vertices=[7, 7]))
+
+    def test_tables_may_be_in_files_and_grids_of_vtk(self):
+        young = palpate.array(palpate.identify(held_sphere(), table(), folds=0), "YoungsModulus")
+        grid = carrier_of(table())
+        for name in ("rig.vtp", "RIG.VTP", "rig.vtu", "Rig.Vtu"):
+            path = write_table(table(), self.folder / name)
+            again = palpate.identify(held_sphere(), path, folds=0, estimate_error=False)
+            np.testing.assert_array_equal(palpate.array(again, "YoungsModulus"), young)
+        again = palpate.identify(held_sphere(), grid, folds=0, estimate_error=False)
+        np.testing.assert_array_equal(palpate.array(again, "YoungsModulus"), young)
+        damaged = self.folder / "damaged.vtu"
+        damaged.write_bytes((self.folder / "rig.vtu").read_bytes()[:2000])
+        self.refused("damaged.vtu: ", palpate.identify, held_sphere(), damaged)
 
     def test_next_probes_make_what_is_known_better(self):
         model = palpate.identify(held_sphere(), table(), next_probes=3, folds=0)
@@ -285,6 +300,12 @@ class Program(Folder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertAlmostEqual(
             palpate.array(palpate.read(out), "YoungsModulus")[0] / young, 1, places=6)
+        for name in ("rig.vtu", "RIG.VTP"):
+            other = write_table(table(outliers=0.05), self.folder / name)
+            done = run("identify", surface, out, "--measurements", other, "--folds", 0, "--no-estimate")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"outliers +\d+ of 250: tuples \d+, ")
+            self.assertLess(abs(palpate.array(palpate.read(out), "YoungsModulus")[0] / young - 1), 0.01)
 
     def test_refuses_in_one_line_and_leaves_no_file(self):
         surface, data = self.made("--markers", 4, "--probes", 2)

@@ -16,6 +16,7 @@ from palpate import recovery
 from palpate.arrays import as_vtk
 from support.refused import Refusals
 from support.surfaces import failure_of, lower_cap, points_of, run, sphere
+from support.tables import write_table
 
 FORCE = np.array([0.1, -0.2, -1.5])
 PLACE = np.array([0.0, 0.0, 1.0])
@@ -153,6 +154,18 @@ class Program(Refusals):
         np.testing.assert_allclose(
             palpate.array(palpate.read(out), "RecoveredForce"),
             palpate.array(recovered(), "RecoveredForce"), rtol=1e-4)
+
+    def test_recovers_from_tables_of_vtk(self):
+        vertices, u = seen()
+        table = palpate.displacement_table(u, vertices=vertices)
+        expected = palpate.array(palpate.recover_contacts(body(), table, samples=0), "RecoveredForce")
+        out = self.folder / "contacts.vtp"
+        for name in ("seen.vtu", "SEEN.VTP"):
+            path = write_table(table, self.folder / name)
+            done = run("recover", self.model, path, out, "--samples", 0)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for model in (palpate.read(out), palpate.recover_contacts(body(), path, samples=0)):
+                np.testing.assert_allclose(palpate.array(model, "RecoveredForce"), expected, rtol=1e-9)
 
     def test_takes_one_probe_of_a_rig(self):
         rig, out = self.folder / "rig.csv", self.folder / "contacts.vtp"

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 
 #include "sentence.h"
@@ -60,6 +61,13 @@ std::string_view unquoted(std::string_view word) {
   return isQuoted ? word.substr(1, word.size() - 2) : word;
 }
 
+std::string inSmallLetters(std::string_view word) {
+  std::string small(word);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
 /// One table on its way into Measurements.
 class Table {
  public:
@@ -94,6 +102,7 @@ class Table {
   RestPlace placeBy(Column vertex, Column x, const char* what) const;
   Probe probeHere(bool isNew, const Probe& before) const;
   void requireSame(const Probe& before, const Probe& here) const;
+  double displacement(Column column) const;
   Eigen::Vector3d deviation() const;
 
   TextLines lines_;
@@ -114,7 +123,7 @@ void Table::readNames() {
   for (std::string_view& name : names) name = unquoted(name);
   columnCount_ = names.size();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto found = std::find(std::begin(kNames), std::end(kNames), names[i]);
+    const auto found = std::find(std::begin(kNames), std::end(kNames), inSmallLetters(names[i]));
     if (found == std::end(kNames))
       lines_.refuse("there is no column ", shown(names[i]),
                     ": the first line names those of probe, contact_vertex, contact_x .. _z, "
@@ -179,6 +188,16 @@ void Table::requireSame(const Probe& before, const Probe& here) const {
     differs("contact");
 }
 
+double Table::displacement(Column column) const {
+  if (word(column).empty()) return kNotMeasured;
+  const std::optional<double> value = numberOf(word(column));
+  if (!value || !std::isfinite(*value))
+    lines_.refuse(shown(word(column)), " is not a ", value ? "finite " : "", "number: where ",
+                  kNames[column], " was not measured, ",
+                  separator_ == ' ' ? "separate columns by commas and " : "", "leave it empty");
+  return units_.length * *value;
+}
+
 Eigen::Vector3d Table::deviation() const {
   if (has(Sd) && !word(Sd).empty()) return Eigen::Vector3d::Constant(value(Sd, units_.length));
   if (hasAll(SdX) && !word(SdX).empty()) return vector(SdX, units_.length);
@@ -203,10 +222,7 @@ void Table::readLine() {
   MeasuredDisplacement measured;
   measured.probe = probe;
   measured.marker = placeBy(Vertex, X, "marker");
-  for (int c = 0; c < 3; ++c) {
-    const Column column = Column(Ux + c);
-    measured.displacement[c] = word(column).empty() ? kNotMeasured : value(column, units_.length);
-  }
+  for (int c = 0; c < 3; ++c) measured.displacement[c] = displacement(Column(Ux + c));
   measured.deviation = deviation();
   if ((has(Sd) || has(SdX)) && !(measured.deviation.minCoeff() > 0))
     lines_.refuse("a standard deviation must be positive");

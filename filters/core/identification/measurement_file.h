@@ -16,8 +16,8 @@ struct MeasurementUnits {
 };
 
 /// Reads a table of measurements: a line of names, then a line for each displacement, its words
-/// between `,` or `;` or blanks, in quotation marks or not; lines that begin with # are passed
-/// over.
+/// between `,` or `;` or blanks, in quotation marks or not, names in capitals or not; lines that
+/// begin with # are passed over.
 ///
 /// | name                                       | what                                          |
 /// |--------------------------------------------|-----------------------------------------------|

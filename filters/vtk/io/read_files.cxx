@@ -7,6 +7,7 @@
 #include "vtkElasticSurfaceReader.h"
 #include "vtkElasticVolumeReader.h"
 #include "vtkExecutive.h"
+#include "vtkMeasurementTableReader.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -48,5 +49,10 @@ vtkSmartPointer<vtkPolyData> readSurface(const std::string& path)
 vtkSmartPointer<vtkUnstructuredGrid> readVolume(const std::string& path)
 {
   return readFile<vtkElasticVolumeReader>(path);
+}
+
+vtkSmartPointer<vtkPolyData> readTable(const std::string& path)
+{
+  return readFile<vtkMeasurementTableReader>(path);
 }
 } // namespace palpate

@@ -22,6 +22,10 @@ vtkSmartPointer<vtkPolyData> readSurface(const std::string& path);
 
 /// @throws std::runtime_error with vtkElasticVolumeReader's sentence.
 vtkSmartPointer<vtkUnstructuredGrid> readVolume(const std::string& path);
+
+/// A table of measurements in the field data of a file.
+/// @throws std::runtime_error with vtkMeasurementTableReader's sentence.
+vtkSmartPointer<vtkPolyData> readTable(const std::string& path);
 } // namespace palpate
 
 #endif
