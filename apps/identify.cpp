@@ -285,6 +285,20 @@ void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
              percent(error) + " (what the mesh may add to Young's modulus)");
 }
 
+/// Options that would do nothing.
+void refuseForeignOptions(const CLI::App& command, const Options& o) {
+  const auto refuse = [&](const char* name, const std::string& with) {
+    if (command.count(name) > 0)
+      throw std::invalid_argument(std::string(name) + " makes no sense with " + with +
+                                  ": leave it out");
+  };
+  if (!o.field.empty())
+    for (const char* name : {"--largest-ratio", "--interpolation-tolerance", "--threads"})
+      refuse(name, "--field");
+  if (o.method == "fem") refuse("--threads", "--method fem");
+  if (o.method == "bem") refuse("--largest-ratio", "--method bem");
+}
+
 }  // namespace
 
 void addIdentify(CLI::App& program) {
@@ -292,10 +306,11 @@ void addIdentify(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "identify", "Identify a body's material, and its Green's functions, from measurements");
   addOptions(*command, *options);
-  command->callback([options] {
+  command->callback([options, command] {
     const bool isField = !options->field.empty();
     if (isField && options->method != "fem")
       throw std::invalid_argument("a field takes finite elements: add --method fem");
+    refuseForeignOptions(*command, *options);
     vtkNew<vtkStiffnessFieldIdentification> ofField;
     vtkNew<vtkGreensFunctionIdentification> ofMaterial;
     vtkGreensFunctionIdentification* const filter = isField ? ofField.Get() : ofMaterial.Get();

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <system_error>
 
 #include "commands.h"
 #include "file_kinds.h"
@@ -103,6 +105,15 @@ void set(vtkRigSimulation* rig, const Options& o) {
   rig->SetSeed(o.seed);
 }
 
+/// @throws std::invalid_argument where the measurements would take the place of the model.
+void requireAnotherFile(const Options& o) {
+  std::error_code unknown;  // as there is no such output yet
+  if (std::filesystem::equivalent(o.input, o.output, unknown))
+    throw std::invalid_argument(o.output +
+                                " is the model itself, which the measurements would replace: "
+                                "choose another name for them");
+}
+
 }  // namespace
 
 void addMeasure(CLI::App& program) {
@@ -111,6 +122,7 @@ void addMeasure(CLI::App& program) {
       "measure", "Make the displacements that a rig would measure on a model");
   addOptions(*command, *options);
   command->callback([options] {
+    requireAnotherFile(*options);
     vtkNew<vtkRigSimulation> rig;
     set(rig, *options);
     rig->SetInputData(readSurface(options->input));

@@ -26,21 +26,21 @@ void SupportOptions::addTo(CLI::App& command) {
   command.add_option("--poisson", poisson, "Poisson's ratio, above -1 up to 0.5")
       ->check(isNumber)
       ->group(kGroup);
-  addPlacesTo(command);
+  addPlacesTo(command, kGroup);
 }
 
-void SupportOptions::addPlacesTo(CLI::App& command) {
+void SupportOptions::addPlacesTo(CLI::App& command, const std::string& group) {
   command.add_option("--fix-array", fixedArray, "Fix vertices where this point array is not zero")
-      ->group(kGroup);
+      ->group(group);
   command.add_option("--fix-half-space", halfSpace, "Fix vertices behind a plane: point, normal")
       ->expected(6)
-      ->group(kGroup);
+      ->group(group);
   command.add_option("--fix-box", box, "Fix vertices in a box: xmin xmax ymin ymax zmin zmax")
       ->expected(6)
-      ->group(kGroup);
+      ->group(group);
   command.add_option("--fix-sphere", sphere, "Fix vertices in a ball: centre, radius")
       ->expected(4)
-      ->group(kGroup);
+      ->group(group);
 }
 
 void SupportOptions::applyTo(vtkReferenceBoundaryConditions* filter) const {

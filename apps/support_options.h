@@ -21,7 +21,7 @@ struct SupportOptions {
   std::vector<double> halfSpace, box, sphere;
   void addTo(CLI::App& command);
   /// Those of the support alone.
-  void addPlacesTo(CLI::App& command);
+  void addPlacesTo(CLI::App& command, const std::string& group = "Support (by default the file's)");
   void applyTo(vtkReferenceBoundaryConditions* filter) const;
   /// Whether any option fixes anything.
   bool fixes() const;

@@ -60,7 +60,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     place_tolerance : float
         How far a place may be from the surface, over its diagonal.
     smooth_angle, reciprocal, estimate_error, threads
-        As in `precompute`.
+        As in `precompute`; threads of boundary elements.
     next_probes : int
         Propose so many further probes, of normal and tilted forces at sixteen places, that would tell
         most: `NextProbeVertex`, `NextProbeForce`, and `NextProbeDeviations`, which the parameters would
@@ -99,11 +99,14 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     choice(method, {"bem": 0, "fem": 1}, "method")
     if isinstance(surface, vtkUnstructuredGrid) and (method != "fem" or volume is not None):
         raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
+    if method == "fem" and threads != 0:
+        raise Error("threads makes no sense for method='fem': leave it out")
     filter = vtkGreensFunctionIdentification()
     filter.SetMethod(method == "fem")
     surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
     set_unknowns(filter, poisson, poisson_range)
-    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads)
+    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal)
+    filter.SetNumberOfThreads(whole_number(threads, "threads", 1024))
     filter.SetLargestRatio(number(largest_ratio, "largest_ratio"))
     filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
     filter.SetNumberOfNextProbes(whole_number(next_probes, "next_probes", 100))
@@ -116,7 +119,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
 def identify_field(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, volume=None,
                    modes=50, length=None, deviation=None, register=False, loss="cauchy", folds=5,
                    length_unit="m", force_unit="N", place_tolerance=0.02, smooth_angle=30.0,
-                   reciprocal=True, estimate_error=True, threads=0, progress=None):
+                   reciprocal=True, estimate_error=True, progress=None):
     """Identify a body whose stiffness varies inside from displacements under known forces.
 
     Young's modulus is a random field: its logarithm varies by `deviation` over `length`. The field that
@@ -127,7 +130,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     ----------
     surface, measurements, poisson, poisson_range, fixed, volume, register, loss, folds, length_unit
         As in `identify` with method="fem".
-    force_unit, place_tolerance, smooth_angle, reciprocal, threads, progress
+    force_unit, place_tolerance, smooth_angle, reciprocal, progress
         As in `identify`.
     estimate_error : bool
         As in `precompute`, of a body of one modulus; warns where a field explains less than the mesh errs.
@@ -171,7 +174,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     filter.SetEstimateError(flag(estimate_error, "estimate_error"))
     surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
     set_unknowns(filter, poisson, poisson_range)
-    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads)
+    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal)
     modes = whole_number(modes, "modes", 1000)
     if modes == 0:
         raise Error("a field takes at least one mode, not 0")
@@ -199,14 +202,13 @@ def set_inputs(filter, surface, volume, measurements, length_unit, force_unit):
     return surface
 
 
-def set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal, threads):
+def set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal):
     filter.SetRegister(flag(register, "register"))
     filter.SetLoss(choice(loss, LOSSES, "loss"))
     filter.SetNumberOfFolds(whole_number(folds, "folds", 1000))
     filter.SetPlaceTolerance(number(place_tolerance, "place_tolerance"))
     filter.SetSmoothAngle(number(smooth_angle, "smooth_angle"))
     filter.SetReciprocal(flag(reciprocal, "reciprocal"))
-    filter.SetNumberOfThreads(whole_number(threads, "threads", 1024))
 
 
 def set_unknowns(filter, poisson, poisson_range):

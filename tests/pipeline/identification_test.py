@@ -179,6 +179,8 @@ class Package(Folder):
         self.refused("there is no loss 'l1'", palpate.identify, held_sphere(), table(), loss="l1")
         for name in ("no.csv", "no.vtp", "no.VTU"):
             self.refused("there is no such file", palpate.identify, held_sphere(), self.folder / name)
+        self.refused("threads makes no sense for method='fem'", palpate.identify, held_sphere(), table(),
+                     method="fem", threads=2)
         self.refused("give one of the two", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 0, 1]],
                      contact_vertices=[0])
         self.refused("forces must be", palpate.measurement_table, [0], [[0, 0, 1]], [[0, 1]],
@@ -307,6 +309,12 @@ class Program(Folder):
             self.assertRegex(done.stdout, r"outliers +\d+ of 250: tuples \d+, ")
             self.assertLess(abs(palpate.array(palpate.read(out), "YoungsModulus")[0] / young - 1), 0.01)
 
+    def test_help_names_the_support_alone(self):
+        said = run("identify", "--help").stdout
+        self.assertIn("Support (by default the file's):", said)
+        self.assertNotIn("Support and material", said)
+        self.assertIn("Support and material", run("precompute", "--help").stdout)
+
     def test_refuses_in_one_line_and_leaves_no_file(self):
         surface, data = self.made("--markers", 4, "--probes", 2)
         out = self.folder / "model.vtp"
@@ -324,6 +332,19 @@ class Program(Folder):
             self.assertFalse(out.exists())
         done = run("measure", self.folder / "body.vtp", out, "--tilt", 100)
         self.assertIn("0 to 90 degrees, not 100", done.stderr)
+        model = self.folder / "body.vtp"
+        before = model.read_bytes()
+        (self.folder / "other_name.vtp").symlink_to(model)
+        for same in (model, self.folder / "other_name.vtp"):
+            done = run("measure", model, same)
+            self.assertIn("is the model itself", done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1)
+            self.assertEqual(model.read_bytes(), before)
+        for extra, option in ((("--method", "fem", "--threads", 1), "--threads"),
+                              (("--largest-ratio", 3), "--largest-ratio")):
+            done = run("identify", surface, out, "--measurements", data, *extra)
+            self.assertIn(option + " makes no sense with --method", done.stderr)
+            self.assertFalse(out.exists())
         other = self.folder / "rig.vtu"
         done = run("measure", self.folder / "body.vtp", other)
         self.assertIn("written as .csv or .vtp", done.stderr)

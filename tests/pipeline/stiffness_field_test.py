@@ -116,6 +116,10 @@ class Field(Refusals):
         out.unlink()
         field.unlink()
         for extra, sentence in (((), "--modes requires --field"), (("--field", field), "add --method fem"),
+                                *((("--method", "fem", "--field", field, name, value),
+                                   f"{name} makes no sense with --field: leave it out")
+                                  for name, value in (("--largest-ratio", 10), ("--threads", 0),
+                                                      ("--interpolation-tolerance", 1e-3))),
                                 (("--method", "fem", "--field", self.folder / "field.txt"), ".vtu")):
             done = run(*common, *extra)
             self.assertNotEqual(done.returncode, 0)
