@@ -63,7 +63,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
         As in `precompute`; threads of boundary elements.
     next_probes : int
         Propose so many further probes, of normal and tilted forces at sixteen places, that would tell
-        most: `NextProbeVertex`, `NextProbeForce`, and `NextProbeDeviations`, which the parameters would
+        most, each at another place while there are any: `NextProbeVertex`, `NextProbeForce`, and `NextProbeDeviations`, which the parameters would
         have with all up to each. Takes about as long again.
     progress : callable or bool, optional
         Called as progress(fraction, stage); return False to abort. True shows a bar.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <Eigen/LU>
+#include <numeric>
 #include <random>
 
 #include "support/refusals.h"
@@ -43,10 +44,13 @@ double areaOf(const Eigen::MatrixXd& information) {
   return 1 / std::sqrt(information.determinant());
 }
 
+std::vector<ChosenProbe> chosenOn(const Body& body, int count) {
+  return chooseProbes(body.present, body.information, contactVertices(body.candidates), count);
+}
+
 /// How often random candidates tell less than `count` chosen ones, `times` as many of them.
 double shareWorse(const Body& body, int count, int times) {
-  const double chosen =
-      areaOf(chooseProbes(body.present, body.information, count).back().information);
+  const double chosen = areaOf(chosenOn(body, count).back().information);
   std::mt19937 random(1);
   constexpr int kDraws = 400;
   int worse = 0;
@@ -73,16 +77,48 @@ TEST(NextProbes, OfABallTellMoreThanAsManyRandomOnes) {
   }
 }
 
-TEST(NextProbes, EachIsTheBestThatThereIs) {
+TEST(NextProbes, EachIsTheBestAtAnotherPlace) {
   const Body body;
-  const std::vector<ChosenProbe> chosen = chooseProbes(body.present, body.information, 2);
-  for (const Eigen::MatrixXd& other : body.information) {
+  const std::vector<int> places = contactVertices(body.candidates);
+  const std::vector<ChosenProbe> chosen = chosenOn(body, 2);
+  for (std::size_t c = 0; c < body.information.size(); ++c) {
+    const Eigen::MatrixXd& other = body.information[c];
     EXPECT_LE((body.present + other).determinant(),
               chosen[0].information.determinant() * (1 + 1e-12));
+    if (places[c] == places[chosen[0].candidate]) continue;
     EXPECT_LE((chosen[0].information + other).determinant(),
               chosen[1].information.determinant() * (1 + 1e-12));
   }
-  EXPECT_TRUE(isRefused([&] { chooseProbes(body.present, {}, 1); }, "no candidate"));
+  EXPECT_TRUE(isRefused([&] { chooseProbes(body.present, {}, {}, 1); }, "no candidate"));
+  EXPECT_TRUE(isRefused([&] { chooseProbes(body.present, body.information, {1}, 1); },
+                        "80 candidates, but 1 places"));
+}
+
+// One place tells by far most: it is taken once, then the others, then it again.
+TEST(NextProbes, NoPlaceIsChosenTwiceBeforeAllAre) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  const std::vector<Eigen::MatrixXd> candidates{one, 100 * one, 90 * one, 2 * one};
+  std::vector<int> order;
+  for (const ChosenProbe& probe : chooseProbes(one, candidates, {4, 7, 7, 9}, 4))
+    order.push_back(probe.candidate);
+  EXPECT_EQ(order, (std::vector<int>{1, 3, 0, 1}));
+}
+
+// Against five of each candidate, all as if at places of their own.
+TEST(NextProbes, OtherPlacesTellAlmostAsMuchAsTheBestOneAgain) {
+  const Body bar(box({1, 1, 4}, {3, 3, 12}), [](const Eigen::Vector3d& x) { return x.z() < 1e-9; });
+  for (const Body& body : {bar, Body()}) {
+    std::vector<Eigen::MatrixXd> anyAgain;
+    for (int copy = 0; copy < 5; ++copy)
+      anyAgain.insert(anyAgain.end(), body.information.begin(), body.information.end());
+    std::vector<int> apart(anyAgain.size());
+    std::iota(apart.begin(), apart.end(), 0);
+    for (int count : {2, 3, 5}) {
+      const double repeated =
+          areaOf(chooseProbes(body.present, anyAgain, apart, count).back().information);
+      EXPECT_LE(areaOf(chosenOn(body, count).back().information), 1.2 * repeated) << count;
+    }
+  }
 }
 
 TEST(NextProbes, CandidatesAreFreeAndApart) {

@@ -210,10 +210,22 @@ class Package(Folder):
         self.assertEqual(after.shape, (3, 2))
         self.assertTrue((after[0] < before * 1.05).all())
         self.assertTrue((np.diff(after, axis=0) <= 0).all())
-        self.assertFalse(lower_cap(held_sphere())[palpate.array(model, "NextProbeVertex")].any())
+        vertices = palpate.array(model, "NextProbeVertex")
+        self.assertFalse(lower_cap(held_sphere())[vertices].any())
+        self.assertEqual(len(set(vertices)), 3)
         np.testing.assert_allclose(
             np.linalg.norm(palpate.array(model, "NextProbeForce"), axis=1),
             np.linalg.norm(palpate.array(model, "ProbeForce"), axis=1).mean())
+
+    def test_no_place_is_proposed_twice_before_all_are(self):
+        kidney = palpate.refine(palpate.read(palpate.example("kidney")))
+        body = palpate.precompute(kidney, young=YOUNG, poisson=POISSON, estimate_error=False)
+        for probes in (2, 5):
+            seen = palpate.simulate_measurements(body, probes=probes)
+            model = palpate.identify(kidney, seen, next_probes=17, folds=0, estimate_error=False)
+            vertices = palpate.array(model, "NextProbeVertex")
+            self.assertEqual(len(set(vertices[:16])), 16)
+            self.assertIn(vertices[16], vertices[:16])
 
     def test_progress_aborts(self):
         stages = set()

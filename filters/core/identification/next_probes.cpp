@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <limits>
+#include <set>
 
 #include "sentence.h"
 
@@ -62,23 +63,37 @@ std::vector<Eigen::MatrixXd> informationOfProbes(const MaterialIdentifier& ident
 }
 
 std::vector<ChosenProbe> chooseProbes(const Eigen::MatrixXd& present,
-                                      const std::vector<Eigen::MatrixXd>& candidates, int count) {
+                                      const std::vector<Eigen::MatrixXd>& candidates,
+                                      const std::vector<int>& places, int count) {
   if (candidates.empty()) refuse("there is no candidate to choose a probe from");
+  if (places.size() != candidates.size())
+    refuse("there are ", candidates.size(), " candidates, but ", places.size(), " places of them");
+  const std::set<int> all(places.begin(), places.end());
+  std::set<int> left;
   std::vector<ChosenProbe> chosen;
   Eigen::MatrixXd information = present;
   for (int i = 0; i < count; ++i) {
-    int best = 0;
+    if (left.empty()) left = all;
+    int best = -1;
     double most = -INFINITY;
     for (std::size_t c = 0; c < candidates.size(); ++c) {
+      if (left.count(places[c]) == 0) continue;
       const double determinant = logDeterminant(information + candidates[c]);
-      if (!(determinant > most)) continue;
+      if (best >= 0 && !(determinant > most)) continue;
       most = determinant;
       best = static_cast<int>(c);
     }
     information += candidates[best];
+    left.erase(places[best]);
     chosen.push_back({best, information});
   }
   return chosen;
+}
+
+std::vector<int> contactVertices(const Measurements& probes) {
+  std::vector<int> vertices;
+  for (const Probe& probe : probes.probes) vertices.push_back(probe.contact.vertex);
+  return vertices;
 }
 
 Measurements candidateProbes(const SurfaceMesh& mesh, const BoundaryConditions& conditions,

@@ -25,11 +25,16 @@ struct ChosenProbe {
 };
 
 /// Chooses probes D-optimally, one after the other: each the one with which the determinant of the
-/// information is largest. A candidate may be chosen again.
+/// information is largest, at a place where none was chosen yet; at any again once all are.
 /// @param present     information that is there already.
 /// @param candidates  at least one.
+/// @param places      #candidates: a number for where each is, the same for the same place.
 std::vector<ChosenProbe> chooseProbes(const Eigen::MatrixXd& present,
-                                      const std::vector<Eigen::MatrixXd>& candidates, int count);
+                                      const std::vector<Eigen::MatrixXd>& candidates,
+                                      const std::vector<int>& places, int count);
+
+/// Such numbers: the vertices of contacts.
+std::vector<int> contactVertices(const Measurements& probes);
 
 /// Probes that could be made: normal and tilted forces at places far from each other, each seen by
 /// the markers of the probe that has most.

@@ -293,7 +293,7 @@ void vtkGreensFunctionIdentification::ProposeProbes(const Body& body,
   const palpate::MaterialIdentifier further = this->IdentifierFor(body, candidates, progress);
   const std::vector<palpate::ChosenProbe> chosen = palpate::chooseProbes(present,
     palpate::informationOfProbes(further, parameters, candidates, result.noise),
-    this->NumberOfNextProbes);
+    palpate::contactVertices(candidates), this->NumberOfNextProbes);
   std::vector<palpate::Probe> probes;
   Eigen::MatrixXd deviations(chosen.size(), parameters.size());
   for (std::size_t i = 0; i < chosen.size(); ++i)

@@ -143,7 +143,8 @@ public:
   ///@{
   /**
    * Also propose so many further probes, of normal and tilted forces at sixteen places, that would tell most
-   * (palpate::chooseProbes). Takes about as long again. Default 0.
+   * (palpate::chooseProbes), each at another place while there are any. Takes about as long again.
+   * Default 0.
    */
   vtkSetClampMacro(NumberOfNextProbes, int, 0, 100);
   vtkGetMacro(NumberOfNextProbes, int);
