@@ -154,8 +154,7 @@ void addOptions(CLI::App& command, Options& o) {
 void setInput(vtkGreensFunctionIdentification* filter, const Options& o) {
   vtkNew<vtkReferenceBoundaryConditions> conditions;
   o.support.applyTo(conditions);
-  conditions->SetYoungsModulus(1);  // what is identified takes its place
-  conditions->SetPoissonRatio(0.3);
+  conditions->RequireMaterialOff();
   if (isVolumeFile(o.input)) {
     if (o.method != "fem")
       throw std::invalid_argument(o.input + " is a volume mesh: add --method fem");

@@ -112,7 +112,7 @@ def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=N
     filter.SetNumberOfNextProbes(whole_number(next_probes, "next_probes", 100))
     filter.SetInterpolationTolerance(number(interpolation_tolerance, "interpolation_tolerance"))
     filter.SetEstimateError(flag(estimate_error, "estimate_error"))
-    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))  # what is identified takes their place
+    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
     return computed(filter, progress)
 
 
@@ -183,7 +183,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
         filter.SetFieldLength(positive(length, "length"))
     if deviation is not None:
         filter.SetFieldDeviation(positive(deviation, "deviation"))
-    filter.SetInputData(posed(surface, 1.0, 0.3, fixed))
+    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
     model = computed(filter, progress)
     return model, filter.GetOutputDataObject(1)
 

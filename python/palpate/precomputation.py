@@ -214,9 +214,10 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
     return computed(greens, progress)
 
 
-def posed(surface, young, poisson, fixed):
+def posed(surface, young, poisson, fixed, require_material=True):
     """A copy of a surface with its material and support, as `precompute` takes them."""
     conditions = vtkReferenceBoundaryConditions()
+    conditions.SetRequireMaterial(require_material)
     conditioned = vtkPolyData()
     conditioned.ShallowCopy(surface_of(surface))
     if fixed is not None:

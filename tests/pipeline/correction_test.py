@@ -53,6 +53,10 @@ class Correction(Refusals):
         done = run("correct", prior, out, "--measurements", rig, "--modes", 30, "--smoothing", 0.1)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"error at probes left out +\d")
+        text = self.folder / "rig.csv"
+        self.assertEqual(run("measure", prior, text, "--radius", 0.4).returncode, 0)
+        told = run("correct", prior, self.folder / "told.vtp", "--measurements", text, "--smoothing", 0.1)
+        self.assertRegex(told.stdout, rf"corrected by 250 displacements under 5 probes \({re.escape(str(text))}\)")
         found = palpate.correct(body(0.1), table(), modes=30, smoothing=0.1)
         self.assertEqual(palpate.array(palpate.read(out), "IdentifiedParameters").tolist(),
                          palpate.array(found, "IdentifiedParameters").tolist())
@@ -68,7 +72,10 @@ class Correction(Refusals):
         prior, out = self.folder / "prior.vtp", self.folder / "out.vtp"
         palpate.write(body(0.1), prior)
         spoilt = palpate.simulate_measurements(body(), probes=20, radius=0.4, outliers=0.05)
-        expected = palpate.array(palpate.correct(body(0.1), spoilt, smoothing=0.1), "MeasurementOutlier")
+        found = palpate.correct(body(0.1), spoilt, smoothing=0.1)
+        self.assertRegex(palpate.array(found, "GreensFunctionSource")[0],
+                         r"; corrected by 1000 displacements under 20 probes \(a table\)$")
+        expected = palpate.array(found, "MeasurementOutlier")
         self.assertGreater(expected.sum(), 20)
         for name in ("rig.vtu", "Rig.VTP"):
             rig = write_table(spoilt, self.folder / name)

@@ -203,6 +203,20 @@ class Package(Folder):
         damaged.write_bytes((self.folder / "rig.vtu").read_bytes()[:2000])
         self.refused("damaged.vtu: ", palpate.identify, held_sphere(), damaged)
 
+    def test_a_modulus_far_from_the_surfaces_own_is_doubted(self):
+        def warnings_of(surface, **settings):
+            model = palpate.identify(surface, table(), folds=0, estimate_error=False, **settings)
+            fields = model.GetFieldData()
+            return palpate.array(model, "Warnings") if fields.HasArray("Warnings") else []
+
+        own = held_sphere()
+        own.GetFieldData().AddArray(as_vtk([YOUNG], "YoungsModulus", 1, float))
+        self.assertEqual(warnings_of(own), [])
+        self.assertEqual(warnings_of(held_sphere(), force_unit="kN"), [])
+        for unit, times in (("kN", "1000"), ("mN", "0.001")):
+            self.assertIn(f"the identified Young's modulus is {times} times that of the input, 20000 Pa: check "
+                          "the unit of force", warnings_of(own, force_unit=unit))
+
     def test_next_probes_make_what_is_known_better(self):
         model = palpate.identify(held_sphere(), table(), next_probes=3, folds=0)
         before = palpate.array(model, "IdentifiedParameters")[:, 1]
@@ -267,6 +281,7 @@ class Program(Folder):
         out = self.folder / "model.vtp"
         done = run("identify", surface, out, "--measurements", data, "--next-probes", 2)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"identified from 250 displacements under 5 probes ({data})", done.stdout)
         young = float(re.search(r"Young's modulus, Pa +(\S+) \+- ", done.stdout)[1])
         self.assertLess(abs(young / YOUNG - 1), 0.01)
         self.assertRegex(done.stdout, r"probe 3 +residual \S+ %, \S+ m, \d+ outliers")
@@ -292,6 +307,19 @@ class Program(Folder):
         done = run("identify", surface, self.folder / "model.vtp", "--measurements", data, "--no-estimate")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"outliers +\d+ of 250: lines .*\b100\b")
+        self.assertNotIn("check the unit", done.stderr)
+
+    def test_a_wrong_unit_of_force_is_doubted(self):
+        surface, data = self.made("--markers", 10)
+        surface_with_material = self.folder / "body.vtp"
+        for given, doubts in ((surface, 0), (surface_with_material, 1)):
+            done = run("identify", given, self.folder / "model.vtp", "--measurements", data, "--force-unit",
+                       "kN", "--folds", 0, "--no-estimate")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said = re.findall(r"warning: the identified Young's modulus is (\d+) times that of the input, "
+                              r"20000 Pa: check the unit of force", done.stderr)
+            self.assertEqual(len(said), doubts)
+            self.assertTrue(all(970 < float(times) < 1030 for times in said))
 
     def test_tables_may_be_polydata_in_other_units(self):
         surface, data = self.made()

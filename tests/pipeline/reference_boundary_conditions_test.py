@@ -123,6 +123,16 @@ class Material(unittest.TestCase):
         algorithm.SetPoissonRatio(0.6)
         self.assertIn("0.6", failure_of(algorithm))
 
+    def test_a_material_is_required_unless_it_will_be_identified(self):
+        algorithm = palpate.vtkReferenceBoundaryConditions()
+        algorithm.SetInputData(sphere(2))
+        algorithm.AddFixedHalfSpace((0, 0, -0.5), (0, 0, 2))
+        self.assertIn("give Young's modulus and Poisson's ratio", failure_of(algorithm))
+        algorithm.RequireMaterialOff()
+        self.assertEqual(failure_of(algorithm), "")
+        self.assertTrue(types_of(algorithm).any())
+        self.assertFalse(algorithm.GetOutput().GetFieldData().HasArray("YoungsModulus"))
+
 
 if __name__ == "__main__":
     unittest.main()

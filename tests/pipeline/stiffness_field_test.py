@@ -111,6 +111,8 @@ class Field(Refusals):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"mean Young's modulus, Pa +\d")
         self.assertRegex(done.stdout, r"unknowns that are determined +\d")
+        self.assertIn(f"a field of 8 modes identified from 250 displacements under 5 probes ({rig})", done.stdout)
+        self.assertRegex(done.stderr, r"the identified Young's modulus is \d+ times that of the input, 1 Pa")
         volume = palpate.read_volume(field)
         self.assertEqual(palpate.array(volume, "YoungsModulus").size, volume.GetNumberOfCells())
         out.unlink()

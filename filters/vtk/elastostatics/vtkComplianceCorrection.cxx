@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "identification/compliance_correction.h"
+#include "identified_material.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"
@@ -89,6 +90,7 @@ void vtkComplianceCorrection::Compute(
   palpate::CorrectedGreensFunctions corrected = palpate::correctCompliance(*served.greens, model,
     probed.setup, measurements, options,
     [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
+  corrected.greens.info.source += convert::tableNamed(this->MeasurementFileName);
   std::vector<std::string>& warnings = corrected.greens.info.diagnostics.warnings;
   warnings.insert(
     warnings.end(), corrected.fit.warnings.begin(), corrected.fit.warnings.end());

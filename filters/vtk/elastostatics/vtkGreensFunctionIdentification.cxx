@@ -8,6 +8,7 @@
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "filled_surface.h"
+#include "identified_material.h"
 #include "identification/next_probes.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
@@ -73,7 +74,7 @@ struct vtkGreensFunctionIdentification::Body
 {
   const vtkGreensFunctionIdentification& Filter;
   palpate::ElasticModel Given;
-  vtkSmartPointer<vtkPolyData> Surface; // the input, or the boundary of what fills it
+  vtkSmartPointer<vtkPolyData> Boundary; // in place of the surface, null where that stays
   std::optional<palpate::TetrahedralMesh> Mesh;
   std::vector<int> RegionOfCell;
   int Regions = 1;
@@ -185,8 +186,9 @@ vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   vtkPolyData* surface, vtkUnstructuredGrid* grid, const palpate::Progress& progress) const
 {
   namespace convert = palpate::convert;
-  Body body{ *this, convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior), surface, {},
-    {}, 1, {}, {} };
+  const vtkSmartPointer<vtkPolyData> posed = convert::withAnyMaterial(surface);
+  Body body{ *this, convert::modelOf(posed, this->SmoothAngle, palpate::Domain::Interior), {}, {}, {}, 1,
+    {}, {} };
   const bool isSolid = this->Method == FINITE_ELEMENTS;
   if (grid && !isSolid)
   {
@@ -200,11 +202,11 @@ vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   else if (isSolid)
   {
     convert::FilledSurface filled =
-      convert::fillSurface(surface, body.Given.sharedMesh(), 0, progress.callback());
+      convert::fillSurface(posed, body.Given.sharedMesh(), 0, progress.callback());
     if (filled.boundary)
     {
-      body.Surface = filled.boundary;
-      body.Given = convert::modelOf(body.Surface, this->SmoothAngle, palpate::Domain::Interior);
+      body.Boundary = filled.boundary;
+      body.Given = convert::modelOf(body.Boundary, this->SmoothAngle, palpate::Domain::Interior);
       body.Warning = filled.warning;
     }
     body.Mesh = std::move(filled.mesh);
@@ -272,6 +274,26 @@ palpate::MaterialIdentifier vtkGreensFunctionIdentification::IdentifierFor(const
     probed.setup, mesh.diagonal(), probed.normals, this->OptionsFor(body), progress };
 }
 
+void vtkGreensFunctionIdentification::Describe(vtkPolyData* input,
+  const palpate::Measurements& measurements, const std::string& how,
+  const palpate::MaterialIdentification& result, const std::string& warning,
+  palpate::ComputedGreensFunctions& greens) const
+{
+  namespace convert = palpate::convert;
+  greens.info.source +=
+    "; " + how + " from " + convert::countOf(measurements, this->MeasurementFileName);
+  std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
+  for (const std::string& doubt :
+    { warning, convert::unitDoubt(input, result.materials.front().youngsModulus()) })
+  {
+    if (!doubt.empty())
+    {
+      warnings.push_back(doubt);
+    }
+  }
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+}
+
 void vtkGreensFunctionIdentification::ProposeProbes(const Body& body,
   const palpate::MaterialIdentifier& identifier, const palpate::Measurements& measurements,
   const palpate::MaterialIdentification& result, vtkPolyData* output,
@@ -328,22 +350,14 @@ void vtkGreensFunctionIdentification::Compute(
 
   palpate::ComputedGreensFunctions greens =
     body.Compute(result.materials, this->EstimateError, progress.part(0.65, 0.8));
-  greens.info.source += palpate::sentence("; identified from ", measurements.displacements.size(),
-    " displacements under ", measurements.probes.size(), " probes (",
-    this->MeasurementFileName.empty() ? "a table" : this->MeasurementFileName, ")");
-  std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
-  if (!body.Warning.empty())
-  {
-    warnings.push_back(body.Warning);
-  }
-  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
   const palpate::Material& material = result.materials.front();
+  this->Describe(input, measurements, "identified", result, body.Warning, greens);
   const palpate::ElasticModel model = body.ModelOf(material);
   vtkNew<vtkPolyData> computed;
   convert::setGreensFunctions(computed, model, std::move(greens));
-  if (body.Surface != input)
+  if (body.Boundary)
   {
-    convert::setBoundary(output, input, body.Surface, model.sharedMesh());
+    convert::setBoundary(output, input, body.Boundary, model.sharedMesh());
   }
   convert::removeResponses(output);
   convert::setFieldNumber(output, palpate::arrays::YoungsModulus, material.youngsModulus());
@@ -358,5 +372,5 @@ void vtkGreensFunctionIdentification::Compute(
   {
     convert::setRegistration(output, *registration);
   }
-  this->MarkPatches(body.Surface, model, output);
+  this->MarkPatches(body.Boundary ? body.Boundary.Get() : input, model, output);
 }

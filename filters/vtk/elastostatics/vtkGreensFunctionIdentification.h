@@ -4,8 +4,9 @@
  * @class vtkGreensFunctionIdentification
  * @brief a body's material, and with it its Green's functions, from measured displacements
  *
- * Input 0 is a closed triangle surface with the point array `BoundaryType` (vtkReferenceBoundaryConditions;
- * its material is not looked at). Input 1 is optional, for finite elements: an unstructured grid of
+ * Input 0 is a closed triangle surface with the point array `BoundaryType` (vtkReferenceBoundaryConditions
+ * with RequireMaterial off; where the surface has a Young's modulus that differs a hundredfold from the one
+ * identified, that is a warning). Input 1 is optional, for finite elements: an unstructured grid of
  * tetrahedra whose boundary the surface is; its cell array `MaterialRegion` (int from 0) says which of them
  * have a Young's modulus of their own. Without it the surface is filled with tetrahedra, and replaced by
  * their boundary where that has other triangles, with a warning. The measurements are a file
@@ -40,6 +41,7 @@ struct MaterialIdentification;
 struct MaterialUnknowns;
 struct Measurements;
 struct Registration;
+struct ComputedGreensFunctions;
 class MaterialIdentifier;
 class Progress;
 class SurfaceMesh;
@@ -176,6 +178,14 @@ protected:
    * Poisson's ratio, or where it is looked for.
    */
   palpate::MaterialUnknowns PoissonUnknown(bool isSolid) const;
+
+  /**
+   * Says in a model's source what it was identified from, and warns: of another surface, of a Young's
+   * modulus far from the input's, and of what the fit warns of.
+   */
+  void Describe(vtkPolyData* input, const palpate::Measurements& measurements, const std::string& how,
+    const palpate::MaterialIdentification& result, const std::string& warning,
+    palpate::ComputedGreensFunctions& greens) const;
 
   int Method = BOUNDARY_ELEMENTS;
   int Loss = CAUCHY;

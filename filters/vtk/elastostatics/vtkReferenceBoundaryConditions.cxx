@@ -43,6 +43,7 @@ void vtkReferenceBoundaryConditions::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "YoungsModulus: " << this->YoungsModulus << "\n"
      << indent << "PoissonRatio: " << this->PoissonRatio << "\n"
+     << indent << "RequireMaterial: " << this->RequireMaterial << "\n"
      << indent << "FixedArrayName: " << this->FixedArrayName << "\n"
      << indent << "Fixed half-spaces, boxes, spheres: " << this->HalfSpaces.size() << ", "
      << this->Boxes.size() << ", " << this->Spheres.size() << "\n";
@@ -208,14 +209,21 @@ std::vector<unsigned char> pointsByArray(vtkPolyData* surface, const std::string
   return points;
 }
 
-/// Writes a number to the field data unless it is NaN, and returns what is there then.
-double setOrKeep(vtkPolyData* surface, const char* name, double value)
+/// Writes a number to the field data unless it is NaN.
+void setOrKeep(vtkPolyData* surface, const char* name, double value)
 {
   if (!vtkMath::IsNan(value))
   {
     palpate::convert::setFieldNumber(surface, name, value);
   }
-  return palpate::convert::fieldNumber(surface, name, "give Young's modulus and Poisson's ratio");
+}
+
+void requireMaterial(vtkPolyData* surface)
+{
+  constexpr const char* cure = "give Young's modulus and Poisson's ratio";
+  const double young = palpate::convert::fieldNumber(surface, palpate::arrays::YoungsModulus, cure);
+  palpate::Material(
+    young, palpate::convert::fieldNumber(surface, palpate::arrays::PoissonRatio, cure)); // checks them
 }
 } // namespace
 
@@ -282,7 +290,10 @@ void vtkReferenceBoundaryConditions::Compute(
   {
     changeBoundaryTypes(output, this->FindFixedPoints(input, selection));
   }
-  const double young = setOrKeep(output, palpate::arrays::YoungsModulus, this->YoungsModulus);
-  const double poisson = setOrKeep(output, palpate::arrays::PoissonRatio, this->PoissonRatio);
-  palpate::Material(young, poisson); // checks them
+  setOrKeep(output, palpate::arrays::YoungsModulus, this->YoungsModulus);
+  setOrKeep(output, palpate::arrays::PoissonRatio, this->PoissonRatio);
+  if (this->RequireMaterial)
+  {
+    requireMaterial(output);
+  }
 }

@@ -43,6 +43,16 @@ public:
   vtkGetMacro(PoissonRatio, double);
   ///@}
 
+  ///@{
+  /**
+   * Refuse a surface that has no material then. Off where one is to be identified: what there is stays, and
+   * is not looked at. Default on.
+   */
+  vtkSetMacro(RequireMaterial, bool);
+  vtkGetMacro(RequireMaterial, bool);
+  vtkBooleanMacro(RequireMaterial, bool);
+  ///@}
+
   /**
    * Name of a point array whose vertices are fixed where it is not zero. Empty for none.
    */
@@ -87,6 +97,7 @@ private:
   std::vector<unsigned char> FindFixedPoints(vtkPolyData* surface, vtkSelection* selection) const;
 
   double YoungsModulus, PoissonRatio;
+  bool RequireMaterial = true;
   std::string FixedArrayName;
   std::vector<std::array<double, 6>> HalfSpaces, Boxes;
   std::vector<std::array<double, 4>> Spheres;

@@ -8,6 +8,7 @@
 #include "fem/finite_element_method.h"
 #include "fem/modulus_response.h"
 #include "filled_surface.h"
+#include "identified_material.h"
 #include "identification/registration.h"
 #include "identification/stiffness_field.h"
 #include "identification/stiffness_modes.h"
@@ -162,10 +163,11 @@ void vtkStiffnessFieldIdentification::Compute(
     palpate::refuse("a field of stiffness is identified on a firm support, with the Green's functions of "
                     "all free vertices, and proposes no further probes");
   }
+  const vtkSmartPointer<vtkPolyData> posed = convert::withAnyMaterial(input);
   palpate::ElasticModel model =
-    convert::modelOf(input, this->SmoothAngle, palpate::Domain::Interior);
+    convert::modelOf(posed, this->SmoothAngle, palpate::Domain::Interior);
   std::optional<palpate::TetrahedralMesh> mesh;
-  vtkSmartPointer<vtkPolyData> surface = input;
+  vtkSmartPointer<vtkPolyData> boundary; // in place of the surface, null where that stays
   std::string warning;
   if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(inputs[1]))
   {
@@ -174,11 +176,11 @@ void vtkStiffnessFieldIdentification::Compute(
   else
   {
     convert::FilledSurface filled =
-      convert::fillSurface(input, model.sharedMesh(), 0, progress.part(0, 0.1).callback());
+      convert::fillSurface(posed, model.sharedMesh(), 0, progress.part(0, 0.1).callback());
     if (filled.boundary)
     {
-      surface = filled.boundary;
-      model = convert::modelOf(surface, this->SmoothAngle, palpate::Domain::Interior);
+      boundary = filled.boundary;
+      model = convert::modelOf(boundary, this->SmoothAngle, palpate::Domain::Interior);
     }
     mesh = std::move(filled.mesh);
     warning = filled.warning;
@@ -219,14 +221,6 @@ void vtkStiffnessFieldIdentification::Compute(
   const palpate::SolidBody body = response.body(field.modulus, mean.poissonRatio());
   palpate::ComputedGreensFunctions greens = palpate::computeFiniteElementGreensFunctions(
     found, body, how, progress.part(0.7, this->EstimateError ? 0.85 : 1).callback());
-  greens.info.source += palpate::sentence("; a field of ", response.modes().cols(),
-    " modes identified from ", measurements.displacements.size(), " displacements under ",
-    measurements.probes.size(), " probes");
-  std::vector<std::string>& warnings = greens.info.diagnostics.warnings;
-  if (!warning.empty())
-  {
-    warnings.push_back(warning);
-  }
   if (this->EstimateError)
   {
     // By the same body of one material: what the mesh does.
@@ -235,14 +229,17 @@ void vtkStiffnessFieldIdentification::Compute(
       palpate::SolidBody(found.mesh(), *mesh, { palpate::Elasticity(mean) }), how,
       progress.part(0.85, 1).callback())
                                       .info.diagnostics.error;
-    warnOfMesh(field, greens.info.diagnostics.error.total(), warnings);
+    palpate::Diagnostics& diagnostics = greens.info.diagnostics;
+    warnOfMesh(field, diagnostics.error.total(), diagnostics.warnings);
   }
-  warnings.insert(warnings.end(), field.fit.warnings.begin(), field.fit.warnings.end());
+  this->Describe(input, measurements,
+    palpate::sentence("a field of ", response.modes().cols(), " modes identified"), field.fit, warning,
+    greens);
   vtkNew<vtkPolyData> computed;
   convert::setGreensFunctions(computed, found, std::move(greens));
-  if (surface != input)
+  if (boundary)
   {
-    convert::setBoundary(output, input, surface, model.sharedMesh());
+    convert::setBoundary(output, input, boundary, model.sharedMesh());
   }
   convert::removeResponses(output);
   convert::setFieldNumber(output, palpate::arrays::YoungsModulus, mean.youngsModulus());
@@ -256,7 +253,7 @@ void vtkStiffnessFieldIdentification::Compute(
   {
     convert::setRegistration(output, *registration);
   }
-  this->MarkPatches(surface, found, output);
+  this->MarkPatches(boundary ? boundary.Get() : input, found, output);
   setField(vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(1)), body, found.conditions(),
     mean, field);
 }
