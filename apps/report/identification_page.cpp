@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "file_kinds.h"
 #include "report/field_pictures.h"
 #include "report/fit_plots.h"
 #include "report/html.h"
@@ -150,7 +151,7 @@ std::string fit(vtkPolyData* model, const MeasuredData& data, const RunDescripti
       number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m";
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     text += ", " + number(misfit, 3) + " times that given";
-  const bool isPolydata = std::filesystem::path(run["--measurements"]).extension() == ".vtp";
+  const bool isPolydata = isTableInArrays(run["--measurements"]);
   return text + ".</p>\n" + predictionPlot(data) + residualPlot(data) +
          outlierTable(data, isPolydata ? "tuple" : "line");
 }

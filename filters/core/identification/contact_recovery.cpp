@@ -20,8 +20,9 @@ constexpr int kMostWorse = 2;          // radii one after the other that explain
 constexpr double kRing = 1.2;          // likewise: sites beside a site
 constexpr double kShareOfPeak = 1e-3;  // from which on a node bears
 constexpr double kLargeMisfit = 1.5;
-constexpr double kLargeDeviation = 0.2;                // of a force
-constexpr double kAtLimit = 0.98, kMostAtLimit = 0.9;  // of the friction; of a contact's force
+constexpr double kLargeDeviation = 0.2;  // of a force
+constexpr double kWideFriction = 1;      // what tilted forces are tried with, at least
+constexpr double kClearlyBetter = 6;     // of Schwarz's criterion (Kass and Raftery 1995)
 
 std::string shownVector(const Eigen::Vector3d& v) {
   return sentence("(", shortly(v.x()), ", ", shortly(v.y()), ", ", shortly(v.z()), ")");
@@ -48,15 +49,19 @@ class Recovery {
   static std::vector<LoadSite> sitesOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                        const Eigen::VectorXi& patches);
   void findHypothesis();
-  ContactSearch searchNow() const {
-    return {sites_, rings_, response_, {options_.friction, scale_, options_.yieldingSupport}};
+  ContactSearch searchWith(double friction) const {
+    return {sites_, rings_, response_, {friction, scale_, options_.yieldingSupport}};
   }
-  Eigen::Matrix3Xd forcesOf(const ContactHypothesis& hypothesis) const;
+  Eigen::Matrix3Xd forcesOf(const LoadResponses& responses,
+                            const ContactHypothesis& hypothesis) const;
   Eigen::VectorXd pressuresOf(const Eigen::Matrix3Xd& forces) const;
   std::vector<int> contactOfLoads() const;
   RecoveredContact contactOf(const std::vector<int>& loads) const;
   void addResiduals(ContactRecovery& result) const;
+  std::vector<int> nearestContacts(const std::vector<RecoveredContact>& contacts) const;
   void addDeviations(ContactRecovery& result) const;
+  void addSquares(const Eigen::Matrix3Xd& forces, double share, const std::vector<int>& nearest,
+                  ContactRecovery& result) const;
   void addWarnings(ContactRecovery& result) const;
 
   const GreensFunctions& greens_;
@@ -72,6 +77,11 @@ class Recovery {
   bool isScaleTold_ = false;
   LoadResponses responses_;
   ContactHypothesis best_;
+  struct Alternative {
+    double score;
+    Eigen::Matrix3Xd forces;  // 3 by #nodes, N
+  };
+  std::vector<Alternative> alternatives_;  // the best for patches of each radius
 };
 
 std::vector<LoadSite> Recovery::sitesOf(const GreensFunctions& greens, const SurfaceMesh& mesh,
@@ -99,8 +109,9 @@ void Recovery::findHypothesis() {
       // Given deviations are believed where the residuals are smaller.
       if (isScaleTold_) scale_ = isKnown ? std::max(1.0, scale) : std::max(scale, 1e-6);
     }
-    const ContactSearch search = searchNow();
+    const ContactSearch search = searchWith(options_.friction);
     ContactHypothesis here = search.search(responses);
+    alternatives_.push_back({here.score, forcesOf(responses, here)});
     if (here.score < best_.score) {
       best_ = std::move(here);
       responses_ = std::move(responses);
@@ -117,10 +128,11 @@ void Recovery::findHypothesis() {
 }
 
 /// 3 by #nodes, N.
-Eigen::Matrix3Xd Recovery::forcesOf(const ContactHypothesis& hypothesis) const {
+Eigen::Matrix3Xd Recovery::forcesOf(const LoadResponses& responses,
+                                    const ContactHypothesis& hypothesis) const {
   Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, mesh_.vertexCount());
   for (const ConeRay& ray : hypothesis.rays) {
-    const LoadPatch& patch = responses_.patches[ray.load];
+    const LoadPatch& patch = responses.patches[ray.load];
     for (std::size_t j = 0; j < patch.sites.size(); ++j)
       forces.col(sites_[patch.sites[j]].vertex) += patch.shares[j] * ray.size * ray.direction;
   }
@@ -165,7 +177,7 @@ std::vector<int> Recovery::contactOfLoads() const {
 RecoveredContact Recovery::contactOf(const std::vector<int>& loads) const {
   ContactHypothesis own;
   for (int ray : loads) own.rays.push_back(best_.rays[ray]);
-  const Eigen::Matrix3Xd forces = forcesOf(own);
+  const Eigen::Matrix3Xd forces = forcesOf(responses_, own);
   const Eigen::VectorXd pressures = pressuresOf(forces);
   RecoveredContact contact;
   contact.pressure = pressures.maxCoeff(&contact.peak);
@@ -211,61 +223,76 @@ void Recovery::addResiduals(ContactRecovery& result) const {
   if (observed_.deviations.cols() > 0) result.misfit = std::sqrt(over / left);
 }
 
-/// By recovering again from what was recovered, with other noise.
+/// Which contact is nearest to each node.
+std::vector<int> Recovery::nearestContacts(const std::vector<RecoveredContact>& contacts) const {
+  std::vector<int> nearest(mesh_.vertexCount(), -1);
+  for (int node = 0; node < mesh_.vertexCount(); ++node) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      if (const double far = (mesh_.points().col(node) - contacts[c].centre).norm(); far < least) {
+        least = far;
+        nearest[node] = static_cast<int>(c);
+      }
+  }
+  return nearest;
+}
+
+/// By recovering again from what was recovered, with other noise, and by what patches of other
+/// radii tell, as far as Schwarz's criterion makes them probable beside the best.
 void Recovery::addDeviations(ContactRecovery& result) const {
   result.pressureDeviation.setZero(mesh_.vertexCount());
   if (options_.samples < 2) return;
-  const ContactSearch search = searchNow();
+  const std::vector<int> nearest = nearestContacts(result.contacts);
+  const auto add = [&](const Eigen::Matrix3Xd& forces, double share) {
+    addSquares(forces, share, nearest, result);
+  };
+  const ContactSearch search = searchWith(options_.friction);
   const Eigen::VectorXd exact = search.explained(responses_, best_);
   std::mt19937 random(options_.seed);
   std::normal_distribution<double> normal(0, scale_);
-  std::vector<int> contactOfNode(mesh_.vertexCount(), -1);
-  for (int node = 0; node < mesh_.vertexCount(); ++node) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < result.contacts.size(); ++c)
-      if (const double far = (mesh_.points().col(node) - result.contacts[c].centre).norm();
-          far < least) {
-        least = far;
-        contactOfNode[node] = static_cast<int>(c);
-      }
-  }
-  const std::size_t count = result.contacts.size();
-  Eigen::Vector3d total = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd squares = Eigen::Matrix3Xd::Zero(3, count);
-  Eigen::VectorXd places = Eigen::VectorXd::Zero(count);
   for (int sample = 0; sample < options_.samples; ++sample) {
     progress_.report(0.7 + 0.3 * sample / options_.samples, "deviations");
     Eigen::VectorXd data = exact;
     for (double& value : data) value += normal(random);
-    const ContactHypothesis other = search.fitted(responses_, best_, data);
-    const Eigen::Matrix3Xd forces = forcesOf(other);
-    const Eigen::VectorXd pressures = pressuresOf(forces);
-    Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, count), middles = sums;
-    Eigen::VectorXd normals = Eigen::VectorXd::Zero(count);
-    for (int node = 0; node < mesh_.vertexCount(); ++node) {
-      const int c = contactOfNode[node];
-      const double pushed = pressures[node] * greens_.vertexArea(node);
-      sums.col(c) += forces.col(node);
-      middles.col(c) += pushed * (mesh_.points().col(node) - result.contacts[c].centre);
-      normals[c] += pushed;
-    }
-    total += (forces.rowwise().sum() - result.force).cwiseAbs2();
-    result.pressureDeviation += (pressures - result.pressure).cwiseAbs2();
-    for (std::size_t c = 0; c < count; ++c) {
-      squares.col(c) += (sums.col(c) - result.contacts[c].force).cwiseAbs2();
-      const int peak = result.contacts[c].peak;
-      const Eigen::Vector3d axis = mesh_.vertexNormals().col(peak);
-      if (normals[c] > 0) {
-        const Eigen::Vector3d shift = middles.col(c) / normals[c];
-        places[c] += (shift - axis.dot(shift) * axis).squaredNorm();
-      }
-    }
+    add(forcesOf(responses_, search.fitted(responses_, best_, data)), 1.0 / options_.samples);
   }
-  result.pressureDeviation = (result.pressureDeviation / options_.samples).cwiseSqrt();
-  result.forceDeviation = (total / options_.samples).cwiseSqrt();
+  double all = 0;
+  for (const Alternative& other : alternatives_) all += std::exp((best_.score - other.score) / 2);
+  for (const Alternative& other : alternatives_)
+    add(other.forces, std::exp((best_.score - other.score) / 2) / all);
+
+  result.pressureDeviation = result.pressureDeviation.cwiseSqrt();
+  result.forceDeviation = result.forceDeviation.cwiseSqrt();
+  for (RecoveredContact& contact : result.contacts) {
+    contact.forceDeviation = contact.forceDeviation.cwiseSqrt();
+    contact.centreDeviation = std::sqrt(contact.centreDeviation);
+  }
+}
+
+/// Adds squared differences of other forces from those recovered to the deviations.
+/// @param forces  3 by #nodes, N.
+void Recovery::addSquares(const Eigen::Matrix3Xd& forces, double share,
+                          const std::vector<int>& nearest, ContactRecovery& result) const {
+  const std::size_t count = result.contacts.size();
+  const Eigen::VectorXd pressures = pressuresOf(forces);
+  Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, count), middles = sums;
+  Eigen::VectorXd normals = Eigen::VectorXd::Zero(count);
+  for (int node = 0; node < mesh_.vertexCount(); ++node) {
+    const int c = nearest[node];
+    const double pushed = pressures[node] * greens_.vertexArea(node);
+    sums.col(c) += forces.col(node);
+    middles.col(c) += pushed * (mesh_.points().col(node) - result.contacts[c].centre);
+    normals[c] += pushed;
+  }
+  result.forceDeviation += share * (forces.rowwise().sum() - result.force).cwiseAbs2();
+  result.pressureDeviation += share * (pressures - result.pressure).cwiseAbs2();
   for (std::size_t c = 0; c < count; ++c) {
-    result.contacts[c].forceDeviation = (squares.col(c) / options_.samples).cwiseSqrt();
-    result.contacts[c].centreDeviation = std::sqrt(places[c] / options_.samples);
+    RecoveredContact& contact = result.contacts[c];
+    contact.forceDeviation += share * (sums.col(c) - contact.force).cwiseAbs2();
+    if (!(normals[c] > 0)) continue;
+    const Eigen::Vector3d axis = mesh_.vertexNormals().col(contact.peak),
+                          shift = middles.col(c) / normals[c];
+    contact.centreDeviation += share * (shift - axis.dot(shift) * axis).squaredNorm();
   }
 }
 
@@ -290,28 +317,17 @@ void Recovery::addWarnings(ContactRecovery& result) const {
            shortly(contact.forceDeviation.norm()), " N: observe more of them near ",
            shownVector(contact.centre));
   }
-  double limit = 0, all = 0;
-  for (const ConeRay& ray : best_.rays) {
-    const Eigen::Vector3d tangent = ray.direction - sites_[ray.load].axis;
-    all += ray.size;
-    if (options_.friction > 0 && tangent.norm() > kAtLimit * options_.friction) {
-      Eigen::Vector3d force = Eigen::Vector3d::Zero();
-      for (const ConeRay& other : best_.rays)
-        if (other.load == ray.load) force += other.size * other.direction;
-      const Eigen::Vector3d axis = sites_[ray.load].axis;
-      const double normal = force.dot(axis);
-      if ((force - normal * axis).norm() > kAtLimit * options_.friction * normal) limit += ray.size;
-    }
-  }
-  if (limit > kMostAtLimit * all)
+  const ContactHypothesis tilted = searchWith(std::max(kWideFriction, 2 * options_.friction))
+                                       .fitted(responses_, best_, response_.data());
+  if (tilted.score < best_.score - kClearlyBetter)
     warn("the forces are at the limit of friction, ", options_.friction,
-         ": allow a larger coefficient if they may be more tilted");
+         ", and more tilted ones explain the displacements better: allow a larger coefficient");
 }
 
 ContactRecovery Recovery::result() {
   findHypothesis();
   ContactRecovery result;
-  const Eigen::Matrix3Xd forces = forcesOf(best_);
+  const Eigen::Matrix3Xd forces = forcesOf(responses_, best_);
   result.traction.setZero(3, mesh_.vertexCount());
   for (const LoadSite& site : sites_)
     result.traction.col(site.vertex) = forces.col(site.vertex) / greens_.vertexArea(site.vertex);

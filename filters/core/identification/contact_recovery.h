@@ -22,7 +22,7 @@ struct RecoveryOptions {
 struct RecoveredContact {
   std::vector<int> nodes;                                    ///< that bear, ascending
   Eigen::Vector3d force = Eigen::Vector3d::Zero();           ///< on the body, N
-  Eigen::Vector3d forceDeviation = Eigen::Vector3d::Zero();  ///< standard, by noise
+  Eigen::Vector3d forceDeviation = Eigen::Vector3d::Zero();  ///< standard, by noise and radius
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of pressure, on the surface at rest, m
   double centreDeviation = 0;                        ///< of its place, standard, by noise, m
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about the centre, N m
@@ -55,6 +55,8 @@ struct ContactRecovery {
 /// and places is that contacts push and are compact and few. Forces are therefore spread over
 /// patches of one radius about a few sites (ContactSearch); the radius that explains most with
 /// the fewest numbers is taken. Patches of unit force do not shrink what they regularise.
+/// Deviations are of noise, by recovering again, and of the radius, by what others tell as far as
+/// Schwarz's criterion makes them probable (Kass and Raftery, Bayes factors, 1995).
 /// @param patches  #F, smooth patches as the model's: contacts do not reach across their borders,
 ///                 and push along each one's normal.
 /// @throws std::invalid_argument for displacements that tell no contact: too few, all at one place,
