@@ -6,6 +6,7 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkGreensFunctionIdentification.h>
+#include <vtkIdentificationByCrossValidation.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
@@ -40,7 +41,7 @@ struct Options {
   ReportOption report;
   double poisson = kUnknown, largestRatio = 10, tolerance = 1e-4;
   std::vector<double> poissonRange;
-  bool yieldingSupport = false, isRegistered = false, noEstimate = false;
+  bool isChosen = false, yieldingSupport = false, isRegistered = false, noEstimate = false;
   double fieldLength = 0, fieldDeviation = 0;
   int folds = 5, nextProbes = 0, threads = 0, modes = 50;
 };
@@ -113,6 +114,11 @@ void addOptions(CLI::App& command, Options& o) {
           ->required(),
       "models", ".vtp");
   o.measurements.addTo(command);
+  command.add_flag(
+      "--choose", o.isChosen,
+      "Identify the material, with --method fem also stiffness that varies inside, and "
+      "a correction of the material's model; keep the simplest that predicts probes "
+      "left out about best");
   addUnknowns(command, o);
   addField(command, o);
   o.support.addPlacesTo(command);
@@ -252,6 +258,14 @@ void printField(vtkPolyData* model, vtkUnstructuredGrid* grid) {
   printRow("unknowns that are determined", number(fieldNumber(model, "DeterminedUnknowns", 0), 3));
 }
 
+/// Of what was chosen among.
+void printTried(vtkPolyData* model) {
+  const std::vector<std::string> names = fieldStrings(model, "TriedModels");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    printRow("error at probes left out, " + names[i],
+             percent(component(model, "TriedHoldOutErrors", static_cast<vtkIdType>(i))));
+}
+
 void writeField(vtkUnstructuredGrid* grid, const std::string& path) {
   replaceFile(path, [&](const std::string& name) {
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -291,7 +305,7 @@ void refuseForeignOptions(const CLI::App& command, const Options& o) {
       throw std::invalid_argument(std::string(name) + " makes no sense with " + with +
                                   ": leave it out");
   };
-  if (!o.field.empty())
+  if (!o.field.empty() && !o.isChosen)
     for (const char* name : {"--largest-ratio", "--interpolation-tolerance", "--threads"})
       refuse(name, "--field");
   if (o.method == "fem") refuse("--threads", "--method fem");
@@ -306,25 +320,31 @@ void addIdentify(CLI::App& program) {
       "identify", "Identify a body's material, and its Green's functions, from measurements");
   addOptions(*command, *options);
   command->callback([options, command] {
-    const bool isField = !options->field.empty();
+    bool isField = !options->field.empty();
     if (isField && options->method != "fem")
       throw std::invalid_argument("a field takes finite elements: add --method fem");
     refuseForeignOptions(*command, *options);
     vtkNew<vtkStiffnessFieldIdentification> ofField;
     vtkNew<vtkGreensFunctionIdentification> ofMaterial;
-    vtkGreensFunctionIdentification* const filter = isField ? ofField.Get() : ofMaterial.Get();
-    ofField->SetNumberOfModes(options->modes);
-    ofField->SetFieldLength(options->fieldLength);
-    ofField->SetFieldDeviation(options->fieldDeviation);
+    vtkNew<vtkIdentificationByCrossValidation> ofAny;
+    vtkStiffnessFieldIdentification* const withField =
+        options->isChosen ? ofAny.Get() : ofField.Get();
+    withField->SetNumberOfModes(options->modes);
+    withField->SetFieldLength(options->fieldLength);
+    withField->SetFieldDeviation(options->fieldDeviation);
+    vtkGreensFunctionIdentification* const filter =
+        isField || options->isChosen ? withField : ofMaterial.Get();
     set(filter, *options);
     setInput(filter, *options);
     const auto model = run(filter);
-    auto* const field = vtkUnstructuredGrid::SafeDownCast(ofField->GetOutputDataObject(1));
-    if (isField) writeField(field, options->field);
+    auto* const field = vtkUnstructuredGrid::SafeDownCast(withField->GetOutputDataObject(1));
+    if (options->isChosen) isField = field->GetNumberOfCells() > 0;
+    if (isField && !options->field.empty()) writeField(field, options->field);
     writeSurface(model, options->output);
     options->report.write([&](const RunDescription& run) {
       return identificationPage(model, isField ? field : nullptr, run);
     });
+    if (options->isChosen) printTried(model);
     printModel(model, options->measurements);
     if (isField) printField(model, field);
     printWarnings(model);

@@ -22,7 +22,7 @@ from .correction import correct
 from .errors import Aborted, Error, ModelWarning
 from .fields import probe, surface_stress
 from .files import example, read, read_volume, write
-from .identification import identify, identify_field
+from .identification import identify, identify_best, identify_field
 from .imports import import_compliance, import_stiffness
 from .loads import foundation, gravity
 from .measurement_tables import displacement_table, measurement_table, simulate_measurements
@@ -45,6 +45,7 @@ __all__ = [
     "greens_function_nodes",
     "greens_functions",
     "identify",
+    "identify_best",
     "identify_field",
     "import_compliance",
     "import_stiffness",

@@ -8,12 +8,13 @@ from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from .arguments import choice, flag, number, numbers, positive, whole_number
 from .errors import Error
 from .measurement_tables import set_measurements
-from .PalpateElastostatics import vtkGreensFunctionIdentification, vtkStiffnessFieldIdentification
+from .PalpateElastostatics import (vtkGreensFunctionIdentification, vtkIdentificationByCrossValidation,
+                                   vtkStiffnessFieldIdentification)
 from .precomputation import boundary_of, computed, posed
 
 LOSSES = {"none": 0, "huber": 1, "cauchy": 2, "tukey": 3}
 
-__all__ = ["identify", "identify_field"]
+__all__ = ["identify", "identify_best", "identify_field"]
 
 
 def identify(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
@@ -175,6 +176,73 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
     set_unknowns(filter, poisson, poisson_range)
     set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal)
+    set_field(filter, modes, length, deviation)
+    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
+    model = computed(filter, progress)
+    return model, filter.GetOutputDataObject(1)
+
+
+def identify_best(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
+                  volume=None, yielding_support=False, modes=50, length=None, deviation=None,
+                  register=False, loss="cauchy", folds=5, length_unit="m", force_unit="N",
+                  place_tolerance=0.02, smooth_angle=30.0, estimate_error=True, progress=None):
+    """Identify the simplest model of a body that predicts probes left out about as well as any.
+
+    From the most constrained on: of one material, as `identify`; with method="fem" of stiffness that
+    varies inside, as `identify_field`; and the first one's model corrected, as `correct`. Taken is the
+    first whose error under probes left out is within a twentieth of the least.
+
+    Parameters
+    ----------
+    surface, measurements, poisson, poisson_range, fixed, method, volume, yielding_support, register, loss
+        As in `identify`.
+    modes, length, deviation
+        As in `identify_field`.
+    folds : int
+        Of the cross-validation by probes, at least 2.
+    length_unit, force_unit, place_tolerance, smooth_angle, estimate_error, progress
+        As in `identify`.
+
+    Returns
+    -------
+    model : vtkPolyData
+        As of the function that made it, with field arrays `TriedModels` and `TriedHoldOutErrors`.
+    volume : vtkUnstructuredGrid
+        As of `identify_field` if a field was taken, else without cells.
+
+    Raises
+    ------
+    Error
+        With the sentence of what is wrong with the table, by row, or why no model can be identified.
+    Aborted
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import palpate
+    >>> nodule = palpate.refine(palpate.read(palpate.example("nodule")))
+    >>> body = palpate.precompute(nodule, young=20e3, poisson=0.4, estimate_error=False)
+    >>> table = palpate.simulate_measurements(body, noise=0.01)
+    >>> model, volume = palpate.identify_best(nodule, table, poisson=0.4, estimate_error=False)
+    >>> palpate.array(model, "IdentifiedNames"), volume.GetNumberOfCells()
+    (["Young's modulus"], 0)
+    """
+    choice(method, {"bem": 0, "fem": 1}, "method")
+    filter = vtkIdentificationByCrossValidation()
+    filter.SetMethod(method == "fem")
+    filter.SetEstimateError(flag(estimate_error, "estimate_error"))
+    surface = set_inputs(filter, surface, volume, measurements, length_unit, force_unit)
+    set_unknowns(filter, poisson, poisson_range)
+    set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, True)
+    set_field(filter, modes, length, deviation)
+    filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
+    model = computed(filter, progress)
+    return model, filter.GetOutputDataObject(1)
+
+
+def set_field(filter, modes, length, deviation):
+    """What is known of a field beforehand."""
     modes = whole_number(modes, "modes", 1000)
     if modes == 0:
         raise Error("a field takes at least one mode, not 0")
@@ -183,9 +251,6 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
         filter.SetFieldLength(positive(length, "length"))
     if deviation is not None:
         filter.SetFieldDeviation(positive(deviation, "deviation"))
-    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
-    model = computed(filter, progress)
-    return model, filter.GetOutputDataObject(1)
 
 
 def set_inputs(filter, surface, volume, measurements, length_unit, force_unit):

@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 import palpate
 from palpate.arrays import as_vtk
@@ -51,6 +52,15 @@ def found():
     return palpate.identify_field(held((3, 3, 6)), table(), poisson=POISSON, modes=20, length=0.6)
 
 
+def turned(measurements):
+    """The same with displacements of the wrong sign."""
+    copy = vtkPolyData()
+    copy.ShallowCopy(measurements)
+    copy.GetFieldData().AddArray(
+        as_vtk(-palpate.array(measurements, "MeasuredDisplacement"), "MeasuredDisplacement", 3, float))
+    return copy
+
+
 class Field(Refusals):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -67,6 +77,31 @@ class Field(Refusals):
         deviations = palpate.array(volume, "LogModulusDeviation")
         self.assertTrue(((deviations > 0) & (deviations < 1)).all())
         self.assertGreater(palpate.array(model, "DeterminedUnknowns")[0], 3)
+
+    def test_is_taken_where_it_predicts_probes_left_out_better(self):
+        options = dict(method="fem", poisson=POISSON, modes=20, length=0.6, estimate_error=False)
+        model, volume = palpate.identify_best(held((3, 3, 6)), table(), **options)
+        names = palpate.array(model, "TriedModels")
+        errors = palpate.array(model, "TriedHoldOutErrors")
+        self.assertEqual(names, ["material", "field", "correction"])
+        self.assertLess(errors[1], 0.8 * errors[0])
+        taken = int(np.argmax(errors <= 1.05 * errors.min()))
+        self.assertEqual(taken, 1)
+        self.assertEqual(palpate.array(model, "IdentifiedNames"), ["mean Young's modulus"])
+        self.assertGreater(volume.GetNumberOfCells(), 0)
+        uniform = palpate.simulate_measurements(
+            palpate.precompute(held((4, 4, 8)), YOUNG, POISSON, method="fem", estimate_error=False),
+            probes=10, radius=0.5)
+        model, volume = palpate.identify_best(held((3, 3, 6)), uniform, **options)
+        self.assertEqual(palpate.array(model, "IdentifiedNames"), ["Young's modulus"])
+        self.assertEqual(volume.GetNumberOfCells(), 0)
+
+    def test_what_cannot_be_chosen_is_said(self):
+        for words, arguments in (("at least two folds, not 1", dict(folds=1)),
+                                 ("against the forces", dict(force_unit="N", turned=True))):
+            measurements = turned(table()) if arguments.pop("turned", False) else table()
+            self.refused(words, palpate.identify_best, held((3, 3, 6)), measurements, method="fem",
+                         poisson=POISSON, modes=5, length=0.6, estimate_error=False, **arguments)
 
     def test_the_volume_is_what_the_model_is_of(self):
         model, volume = found()

@@ -213,6 +213,9 @@ constexpr const char* RegistrationDistance = "RegistrationDistance"; // places f
 constexpr const char* PriorHoldOutError = "PriorHoldOutError"; // of vtkComplianceCorrection: its prior's
 constexpr const char* CorrectionSmoothing = "CorrectionSmoothing"; // noise over correction, variances
 constexpr const char* DeterminedUnknowns = "DeterminedUnknowns"; // of a field's: by measurements
+// Of vtkIdentificationByCrossValidation: kinds of models and their HoldOutError, NaN for none.
+constexpr const char* TriedModels = "TriedModels";
+constexpr const char* TriedHoldOutErrors = "TriedHoldOutErrors";
 constexpr const char* FieldDeviation = "FieldDeviation"; // that was expected of a field's ln E
 constexpr const char* UniformFitError = "UniformFitError"; // FitError of one modulus in place of a field
 // A tuple a probe that was proposed: its vertex, its force, and the standard deviations that the
@@ -254,7 +257,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   StageNames, Warnings, MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual,
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
-  HoldOutError, FitError, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
+  HoldOutError, FitError, TriedModels, TriedHoldOutErrors, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
   RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, PriorHoldOutError, CorrectionSmoothing,
   NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of the surface that one was remeshed from.
