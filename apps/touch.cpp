@@ -90,8 +90,8 @@ void addDeviceOptions(CLI::App& command, TouchOptions& options) {
       "hid:VVVV:PPPP as `palpate devices` lists it");
   requireBetween(
       command.add_option("--rate", options.rate,
-                         "Ticks of the servo loop a second; 1000 by default. A device that "
-                         "reports less than every second tick gets no steady force"),
+                         "Ticks of the servo loop a second; 1000 by default. A device may report "
+                         "less often, from 50 times a second on"),
       250, 10000);
   requireWritable(command.add_option("--record", options.record,
                                      "Write the device's motion and its rate to this file: the "

@@ -269,14 +269,84 @@ TEST_F(AHandThatFeels, AReportInTimeEndsASilenceWithoutAFault) {
   EXPECT_EQ(phase(), SafetyPhase::Rendering);
 }
 
-TEST_F(AHandThatFeels, ASlowDeviceIsToleratedIfItsSilencesAre) {
-  settings_.toleratedSilence = 4;
-  settings_.largestSilence = 12;
-  safety_ = ForceSafety(settings_, kPeriod);
-  tickUntilItRenders();
-  for (int i = 0; i < 100; ++i) {
-    EXPECT_EQ((i % 4 ? silentTick() : tick()).force, request_.wanted.force);
+/// Ticks of a device that reports in every `every`-th one only.
+class ASlowDevice : public AHandThatFeels, public testing::WithParamInterface<int> {
+ protected:
+  const int every_ = GetParam();
+  const double rate_ = 1 / (kPeriod * every_);
+
+  /// @return the least and the largest force.
+  std::pair<double, double> forces(int reports) {
+    std::pair<double, double> range{HUGE_VAL, 0};
+    for (int i = 0; i < reports * every_; ++i) {
+      const double force = (i % every_ ? silentTick() : tick()).force.norm();
+      range = {std::min(range.first, force), std::max(range.second, force)};
+    }
+    return range;
   }
+  void startWith(double statedRate) {
+    safety_ = ForceSafety(settings_, kPeriod, statedRate);
+    forces(1000 / every_);
+  }
+};
+
+TEST_P(ASlowDevice, GetsASteadyForceWhateverItStates) {
+  for (double stated : {0.0, rate_, 1 / kPeriod, 10 * rate_}) {
+    startWith(stated);
+    const auto [least, largest] = forces(100);
+    EXPECT_EQ(least, request_.wanted.force.norm()) << stated;
+    EXPECT_EQ(largest, least);
+    for (std::int64_t ticks : safety_.report().faults) EXPECT_EQ(ticks, 0);
+  }
+}
+
+TEST_P(ASlowDevice, MayLoseAReportAndNoMore) {
+  for (double stated : {0.0, rate_}) {
+    startWith(stated);
+    const double before = tick().force.norm();
+    for (int i = 1; i < 2 * every_; ++i) EXPECT_EQ(silentTick().force.norm(), before);
+    EXPECT_LT(silentTick().force.norm(), before);
+    EXPECT_EQ(faults(Fault::Silent), 0);
+  }
+}
+
+TEST_P(ASlowDevice, FallingSilentHasNoForceAfterThreeOfItsIntervals) {
+  for (double stated : {0.0, rate_}) {
+    startWith(stated);
+    double last = tick().force.norm(), steepest = 0;
+    for (int i = 1; i <= 3 * every_; ++i) {
+      EXPECT_EQ(faults(Fault::Silent), 0);
+      const double force = silentTick().force.norm();
+      EXPECT_LE(force, last);
+      steepest = std::max(steepest, last - force);
+      last = force;
+    }
+    EXPECT_EQ(last, 0);
+    EXPECT_NEAR(steepest, request_.wanted.force.norm() / (every_ + 1), 1e-12) << "in equal steps";
+    EXPECT_EQ(faults(Fault::Silent), 1);
+    for (int i = 0; i < 1000; ++i) EXPECT_EQ(silentTick().force, Vector3d::Zero());
+    expectToReturnByARamp();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Intervals, ASlowDevice, testing::Values(1, 2, 3, 4, 8, 20));
+
+TEST_F(AHandThatFeels, ADeviceOfLessThanFiftyReportsASecondGetsNoForceAndThatIsTold) {
+  for (int every : {21, 50, 100})
+    for (double stated : {0.0, 1 / (every * kPeriod)}) {
+      safety_ = ForceSafety(settings_, kPeriod, stated);
+      for (int i = 0; i < 3000; ++i)
+        EXPECT_EQ((i % every ? silentTick() : tick()).force, Vector3d::Zero());
+      EXPECT_EQ(safety_.report().fault, Fault::Silent);
+    }
+}
+
+TEST_F(AHandThatFeels, ATickThatComesLateIsOfTheDeviceNoMoreThanAReportThatIsMissing) {
+  tickUntilItRenders();
+  const double before = tick().force.norm();
+  EXPECT_EQ(silentTick(50 * kPeriod).force.norm(), before);
+  EXPECT_EQ(tick().force.norm(), before);
+  EXPECT_EQ(faults(Fault::Silent), 0);
 }
 
 TEST_F(AHandThatFeels, NothingInTheSameTickAsADeviceIsUnpluggedAndARampWhenItReturns) {
@@ -396,6 +466,8 @@ TEST_F(AHandThatFeels, AForceOfTooFewContactsIsRenderedAsItIs) {
 }
 
 TEST_F(AHandThatFeels, OneFaultAfterAnotherNeverRaisesAForceThatFades) {
+  settings_.longestInterval = kPeriod;  // so that two silent ticks are always too many
+  safety_ = ForceSafety(settings_, kPeriod);
   std::mt19937 random(7);
   for (int trial = 0; trial < 200; ++trial) {
     state_.pose.position.setZero();
@@ -497,9 +569,12 @@ TEST(ForceSafety, RefusesSettingsThatProtectNobody) {
   EXPECT_TRUE(with([](auto& s) { s.largestReach = INFINITY; }, "largestReach"));
   EXPECT_TRUE(with([](auto& s) { s.toleratedSilence = -1; }, "toleratedSilence"));
   EXPECT_TRUE(with([](auto& s) { s.largestSilence = 1; }, "largestSilence"));
+  EXPECT_TRUE(with([](auto& s) { s.longestInterval = 0; }, "longestInterval"));
+  EXPECT_TRUE(with([](auto& s) { s.undeliveredTicks = 0; }, "undeliveredTicks"));
   EXPECT_TRUE(with([](auto& s) { s.failedSolves = 0; }, "failedSolves"));
   EXPECT_TRUE(with([](auto& s) { s.lateSolves = 0; }, "lateSolves"));
   EXPECT_TRUE(isRefused([] { ForceSafety({}, 0); }, "the safety setting period"));
+  EXPECT_TRUE(isRefused([] { ForceSafety({}, kPeriod, NAN); }, "the safety setting reportRate"));
 }
 
 }  // namespace

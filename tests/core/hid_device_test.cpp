@@ -61,6 +61,7 @@ TEST_F(HidDevices, TellTheirLimits) {
   EXPECT_EQ(device->info().name, "arm");
   EXPECT_EQ(device->info().largestForce, 3.5);
   EXPECT_EQ(device->info().largestStiffness, 900);
+  EXPECT_EQ(device->info().reportRate, 1000);
 }
 
 TEST_F(HidDevices, AreReadFromTheirFirstStateOn) {

@@ -127,6 +127,20 @@ TEST_F(AServoLoop, AfterItsRampTheHandFeelsTheModelAtItsNewestPose) {
   }
 }
 
+TEST_F(AServoLoop, ADeviceThatReportsInEveryFourthTickFeelsASteadyForce) {
+  std::uint64_t reads = 0;
+  hand_.misbehave = [&reads](DeviceState& state) {
+    state.sequence = 1 + reads++ / 4;
+    return true;
+  };
+  ServoLoop loop(wall_, tools());
+  loop.runHeadless(kTicksToRender);
+  for (int i = 0; i < 100; ++i) {
+    loop.runHeadless(1);
+    EXPECT_NEAR(hand_.forces.back().z(), 1, 1e-12);
+  }
+}
+
 TEST_F(AServoLoop, TheFirstForceIsZeroAndNoneJumps) {
   {
     ServoLoop loop(wall_, tools());

@@ -42,7 +42,7 @@ class Hand : public HapticDevice {
   }
 
  private:
-  DeviceInfo info_{"hand", 3, 0, 0};
+  DeviceInfo info_{"hand", 3, 0, 0, 1000};
   std::uint64_t reads_ = 0;
   Wrench rendered_;
 };

@@ -22,7 +22,7 @@ class VendorDevice final : public HapticDevice {
   /// @throws std::runtime_error if no arm is plugged in.
   VendorDevice() : handle_(stand_in_sdk::armOpen()) {
     if (handle_ < 0) throw std::runtime_error("no arm answers: is it plugged in and switched on?");
-    info_ = {"stand-in arm", 3.3, 0, 800};
+    info_ = {"stand-in arm", 3.3, 0, 800, 1000};
     thread_ = std::thread(&VendorDevice::run, this);
   }
 

@@ -80,9 +80,14 @@ const char* describe(Fault fault) noexcept {
   return "";
 }
 
-ForceSafety::ForceSafety(const SafetySettings& settings, double period)
-    : settings_(settings), period_(period), sound_(kNoWrench), rendered_(kNoWrench) {
+ForceSafety::ForceSafety(const SafetySettings& settings, double period, double reportRate)
+    : settings_(settings),
+      period_(period),
+      interval_(reportRate > 0 ? 1 / reportRate : 0, period, settings.longestInterval),
+      sound_(kNoWrench),
+      rendered_(kNoWrench) {
   const SafetySettings& s = settings;
+  require(reportRate >= 0 && std::isfinite(reportRate), "reportRate", reportRate);
   require(isPositive(period), "period", period);
   require(s.largestForce == 0 || isPositive(s.largestForce), "largestForce", s.largestForce);
   require(s.largestTorque == 0 || isPositive(s.largestTorque), "largestTorque", s.largestTorque);
@@ -96,6 +101,8 @@ ForceSafety::ForceSafety(const SafetySettings& settings, double period)
   require(isPositive(s.largestReach), "largestReach", s.largestReach);
   require(s.toleratedSilence >= 0, "toleratedSilence", s.toleratedSilence);
   require(s.largestSilence > s.toleratedSilence, "largestSilence", s.largestSilence);
+  require(isPositive(s.longestInterval), "longestInterval", s.longestInterval);
+  require(s.undeliveredTicks >= 1, "undeliveredTicks", s.undeliveredTicks);
   require(s.failedSolves >= 1, "failedSolves", s.failedSolves);
   require(s.lateSolves >= 1, "lateSolves", s.lateSolves);
 }
@@ -133,11 +140,17 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
     interrupted_ = true;
     return admitted_;
   }
+  // A late tick is the loop's fault: of the device it tells no more than one report that is
+  // missing.
+  silence_ += std::min(elapsed, interval_.seconds());
   if (everReported_ && state.sequence == sequence_) {
-    if (silence_ < settings_.largestSilence) ++silence_;
-    poseFault_ = silence_ >= settings_.largestSilence ? Fault::Silent : Fault::None;
+    poseFault_ = silentShare() < kRounding || interval_.isTooLong() ? Fault::Silent : Fault::None;
     return admitted_;
   }
+  if (everReported_)
+    interval_.add(silence_);
+  else
+    interval_.restart();
   poseFault_ = judge(state.pose);
   sequence_ = state.sequence;
   silence_ = 0;
@@ -145,6 +158,7 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
     interrupted_ = true;
     return admitted_;
   }
+  if (interval_.isTooLong()) poseFault_ = Fault::Silent;
   startsAnew_ = interrupted_;
   interrupted_ = false;
   admitted_ = reported_;
@@ -168,13 +182,15 @@ Fault ForceSafety::judgeSolve(const Request& request) noexcept {
 void ForceSafety::delivered(bool arrived) noexcept {
   // What is not there takes nothing: that is no fault of its own.
   const bool lost = !arrived && poseFault_ != Fault::Unplugged;
-  undelivered_ = lost ? std::min(undelivered_ + 1, settings_.largestSilence) : 0;
+  undelivered_ = lost ? std::min(undelivered_ + 1, settings_.undeliveredTicks) : 0;
 }
 
-/// 1 up to the tolerated silence, then linearly down to 0 at the largest one.
+/// 1 up to the last tick before a report beyond those tolerated is missing, then linearly down to 0
+/// at the largest silence.
 double ForceSafety::silentShare() const noexcept {
-  const double left = settings_.largestSilence - silence_;
-  return std::min(1.0, left / (settings_.largestSilence - settings_.toleratedSilence));
+  const double interval = interval_.seconds(), zero = settings_.largestSilence * interval;
+  const double held = (settings_.toleratedSilence + 1) * interval - period_;
+  return std::clamp((zero - silence_) / (zero - held), 0.0, 1.0);
 }
 
 Wrench ForceSafety::bounded(const Wrench& wanted) noexcept {
@@ -187,9 +203,12 @@ Wrench ForceSafety::bounded(const Wrench& wanted) noexcept {
 
 /// One tick of fading from the last sound wrench. Once latched it goes on to zero.
 void ForceSafety::fade(bool latch, double elapsed) noexcept {
-  faded_ += elapsed;
   // Never up again, whatever fault follows another.
-  share_ = std::min({share_, 1 - faded_ / settings_.fadeSeconds, silentShare()});
+  share_ = std::min(share_, silentShare());
+  if (latch || failed_ > 0) {
+    faded_ += elapsed;
+    share_ = std::min(share_, 1 - faded_ / settings_.fadeSeconds);
+  }
   if (share_ < kRounding) share_ = 0;
   rendered_ = {share_ * sound_.force, share_ * sound_.torque};
   if (latch) report_.phase = share_ > 0 ? SafetyPhase::Fading : SafetyPhase::Settling;
@@ -233,7 +252,8 @@ const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcep
   const Fault solveFault = judgeSolve(request);
   Fault fault = poseFault_;
   if (fault == Fault::None) fault = solveFault;
-  if (fault == Fault::None && undelivered_ >= settings_.largestSilence) fault = Fault::Undelivered;
+  if (fault == Fault::None && undelivered_ >= settings_.undeliveredTicks)
+    fault = Fault::Undelivered;
 
   if (fault == Fault::Unplugged) {
     endWith(fault);
@@ -242,7 +262,7 @@ const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcep
   } else if (fault != Fault::None || request.paused || report_.phase == SafetyPhase::Fading) {
     endWith(fault);
     fade(true, elapsed);
-  } else if (failed_ > 0 || silence_ > settings_.toleratedSilence) {
+  } else if (failed_ > 0 || silentShare() < 1 - kRounding) {
     fade(false, elapsed);
   } else {
     render(request.wanted);

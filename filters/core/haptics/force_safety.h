@@ -8,6 +8,7 @@
 
 #include "contact/contact_certificate.h"
 #include "haptics/haptic_device.h"
+#include "haptics/report_interval.h"
 
 namespace palpate {
 
@@ -25,17 +26,19 @@ struct SafetySettings {
   double largestTurning = 500;  ///< rad/s
   double largestReach = 10;     ///< m from the device's origin
 
-  int toleratedSilence = 1;  ///< ticks in a row without a report in which the force stays
-  int largestSilence = 3;    ///< such ticks after which it is zero; a fault
-  int failedSolves = 3;      ///< in a row are a fault; the force fades from the first on
-  int lateSolves = 20;       ///< late, rough or held back, in a row, are a fault
+  int toleratedSilence = 1;       ///< reports missed in a row, while the force stays
+  int largestSilence = 3;         ///< ReportIntervals after the last report it is zero; a fault
+  double longestInterval = 0.02;  ///< s; a device that reports less often gets no force; a fault
+  int undeliveredTicks = 3;       ///< in a row are a fault
+  int failedSolves = 3;           ///< in a row are a fault; the force fades from the first on
+  int lateSolves = 20;            ///< late, rough or held back, in a row, are a fault
 };
 
 enum class Fault : std::uint8_t {
   None,
   InvalidPose,  ///< not finite, out of reach, no rotation
   Jump,
-  Silent,         ///< no new report
+  Silent,         ///< no new report, or too few
   Unplugged,      ///< the device is not there
   Undelivered,    ///< the device takes no wrench
   FailedSolves,   ///< or forces that are not finite
@@ -73,13 +76,17 @@ struct SafetyReport {
 ///
 /// After a fault the force is f0 (1 - t/fadeSeconds), f0 the last one without fault, and so exactly
 /// zero in time from any force, also where the fault is a pose that is not valid; a device that is
-/// gone makes it zero in the same tick, silence by largestSilence ticks. Then it stays zero until
-/// settleSeconds have passed without a fault, and returns over rampSeconds.
+/// gone makes it zero in the same tick. Silence is counted in the device's own ReportInterval, a
+/// late tick as no more than one: the force stays while toleratedSilence reports are missing, and
+/// fades from then on to zero at largestSilence intervals, no later than that many
+/// longestIntervals. Then it stays zero until settleSeconds have passed without a fault, and
+/// returns over rampSeconds.
 class ForceSafety {
  public:
-  /// @param period  s, of a tick.
+  /// @param period      s, of a tick.
+  /// @param reportRate  as DeviceInfo's.
   /// @throws std::invalid_argument naming the setting that is out of range.
-  ForceSafety(const SafetySettings& settings, double period);
+  ForceSafety(const SafetySettings& settings, double period, double reportRate = 0);
 
   /// Judges what the device reports; the first half of a tick.
   /// @param present  whether the device is there; if not, `state` is not looked at.
@@ -120,14 +127,16 @@ class ForceSafety {
 
   SafetySettings settings_;
   double period_;
+  ReportInterval interval_;
   SafetyReport report_;
 
   ToolPose admitted_, reported_;  ///< reported_: what a jump is measured from
   bool everReported_ = false, startsAnew_ = false, interrupted_ = true;
   std::uint64_t sequence_ = 0;
   double sinceReport_ = 0;  ///< s
+  double silence_ = 0;      ///< s, the same with late ticks cut to an interval
   Fault poseFault_ = Fault::None;
-  int silence_ = 0, undelivered_ = 0, failed_ = 0, late_ = 0;
+  int undelivered_ = 0, failed_ = 0, late_ = 0;
 
   double settled_ = 0, faded_ = 0;  ///< s
   double time_ = 0;                 ///< s, from the start to the tick before

@@ -36,6 +36,7 @@ struct DeviceInfo {
   double largestForce = 0;      ///< N
   double largestTorque = 0;     ///< N m
   double largestStiffness = 0;  ///< N/m, 0 if not known
+  double reportRate = 0;        ///< new states a second, 0 if not known
 };
 
 /// A hand's way into the scene: pose in, wrench out, in metres, newtons and newton metres.

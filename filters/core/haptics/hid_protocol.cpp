@@ -125,6 +125,7 @@ class PalpateProtocol final : public HidProtocol {
     info.largestForce = capability.largestForce;
     info.largestTorque = capability.largestTorque;
     info.largestStiffness = capability.largestStiffness;
+    info.reportRate = capability.reportsPerSecond;
     numbering_ = {};
     state_ = {};
     hasState_ = false;

@@ -65,7 +65,9 @@ ServoLoop::Stage::Stage(std::shared_ptr<TouchModel> touched, std::size_t toolCou
       snapshots(emptySnapshot(*model, toolCount)) {}
 
 ServoLoop::Hand::Hand(const ServoTool& held, double period)
-    : tool(held), safety(withinDevice(held.safety, held.device->info()), period) {}
+    : tool(held),
+      safety(withinDevice(held.safety, held.device->info()), period,
+             held.device->info().reportRate) {}
 
 ServoLoop::ServoLoop(std::shared_ptr<TouchModel> model, const std::vector<ServoTool>& tools,
                      const ServoSettings& settings)

@@ -31,7 +31,7 @@ SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings) : sett
   require(isNotNegative(s.hand.damping), "hand's damping", s.hand.damping);
   info_.name = "simulated device";
   info_.largestForce = s.largestForce > 0 ? s.largestForce : HUGE_VAL;
-  info_.largestStiffness = 0;
+  info_.reportRate = 1 / s.period;
   forces_.assign(s.delay + 1, Eigen::Vector3d::Zero());
 
   // Distance, velocity and a constant force, in one exponential (Van Loan 1978).
