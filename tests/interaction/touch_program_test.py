@@ -38,6 +38,13 @@ class Headless(Program):
         self.assertIn("at 0.05 0.05 0.1", printed)
         self.assertIn(f"ticks    {round((REST + 0.4) * RATE)}, 0 left out", printed)
 
+    def test_the_status_line_tells_what_is_rendered_where_that_is_less(self):
+        pressed = self.scripted(PRESS, limits="0.05 0 0")
+        status = self.run_well(*pressed, "--seconds", REST + 0.4).splitlines()[0]
+        self.assertRegex(status, r"N sticks \(rendered 50 mN, limited or faded for safety\)")
+        whole = self.run_well(*self.scripted(PRESS), "--seconds", REST + 0.4).splitlines()[0]
+        self.assertNotIn("rendered", whole)
+
     def test_a_rigid_stiffness_bounds_the_frobenius_norm_of_what_a_point_shows(self):
         pressed = (*self.scripted(PRESS), "--seconds", REST + 0.4)
         for rigid in (5, 20):
@@ -212,6 +219,7 @@ class Lab(Program):
             self.run_badly(f"{option[0]} requires --lab", *touch, *option)
         for option in (("--seconds", 1), ("--rate", 500), ("--friction", 1), ("--plan",)):
             self.run_badly("excludes", "touch", self.model, "--lab", *option)
+
 
 
 class Grasp(Program):

@@ -73,6 +73,7 @@ public:
   const ServoSnapshot& Snapshot() const { return this->Latest ? *this->Latest : this->Nothing; }
   const ToolContact& Contact(int tool) const;
   Wrench Rendered(int tool) const;
+  bool IsReduced(int tool) const;
   /// What the first body does to another that it meets, N; numbered from 0.
   Eigen::Vector3d PartnerForce(int partner) const;
   std::string Fault(int tool) const;

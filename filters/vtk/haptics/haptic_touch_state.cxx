@@ -44,6 +44,15 @@ Wrench HapticTouch::Rendered(int tool) const
     : kNoWrench;
 }
 
+/// Whether a device that can render a force gets less than the model's, in its own newtons.
+bool HapticTouch::IsReduced(int tool) const
+{
+  const SceneDevice& device = this->Described().devices[this->Described().tools[tool].device];
+  const double wanted = device.mapping.toDevice(this->Contact(tool).wrench).force.norm();
+  return device.type != DeviceType::Mouse && !this->Silent[tool] &&
+    this->Rendered(tool).force.norm() < 0.999 * wanted;
+}
+
 const ProbeReading* HapticTouch::ProbeInside(int probe) const
 {
   const std::vector<SceneProbe>& probes = this->Described().effects.probes;
@@ -119,7 +128,13 @@ std::string HapticTouch::Status() const
     const ToolContact& contact = this->Snapshot().contact.tools[t];
     line += "  " + engineering(contact.wrench.force.norm(), "N");
     line += contact.touching ? contact.sliding ? " slides" : " sticks" : " free";
-    const std::string fault = this->Fault(static_cast<int>(t));
+    const int tool = static_cast<int>(t);
+    if (this->IsReduced(tool))
+    {
+      line += " (rendered " + engineering(this->Rendered(tool).force.norm(), "N") +
+        ", limited or faded for safety)";
+    }
+    const std::string fault = this->Fault(tool);
     line += fault.empty() ? "" : " (" + fault + ")";
     line += this->Silent[t] ? " (not rendered: its device's limits allow no force)" : "";
   }
