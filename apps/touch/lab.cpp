@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -37,6 +38,8 @@
 
 namespace palpate::app {
 namespace {
+
+constexpr double kUneven = 0.1;  ///< of the stiffness, from which on its variation is told
 
 /// A curve of the plot: what depends on the rate alone.
 struct Series {
@@ -200,6 +203,10 @@ void runLab(const TouchOptions& options) {
   if (settings.depth > body.mesh->diagonal())
     throw std::invalid_argument("--depth is more than the model's length: are both in metres?");
   const StabilityLab lab(*session.model(), settings);
+  if (lab.variation() > kUneven)
+    std::cerr << "palpate: warning: the stiffness varies by " << std::lround(100 * lab.variation())
+              << " % along the tool's way, where it slips over faces of another stiffness: what is "
+                 "stable may be far below the bound; `palpate refine` makes the mesh finer\n";
   const auto orElse = [](const auto& given, auto standard) {
     return given.empty() ? decltype(given)(standard) : given;
   };

@@ -170,6 +170,32 @@ TEST_F(StabilityLabAtAWall, AStiffnessWhoseAxesLieAcrossThePressIsItsLargestEige
   EXPECT_NEAR(lab.largestStable(), critical, 0.01 * critical);
 }
 
+/// Stiffer by a share for every millimetre along x.
+class UnevenWall : public VirtualWall {
+ public:
+  explicit UnevenWall(double share)
+      : VirtualWall(500, Vector3d::Zero(), Vector3d::UnitZ()), share_(share) {}
+  ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept override {
+    const ContactCertificate certificate = VirtualWall::step(poses, wrenches);
+    wrenches[0].force *= 1 + share_ * 1e3 * poses[0].position.x();
+    return certificate;
+  }
+
+ private:
+  double share_;
+};
+
+TEST_F(StabilityLabAtAWall, TheVariationOfAStiffnessAlongTheWayIsTold) {
+  EXPECT_NEAR(lab().variation(), 0, 1e-9);
+  for (double share : {0.1, 0.5, 2.0}) {
+    UnevenWall wall(share);
+    // f_z = K (1 + s x / d) z at depth d: K' - K = s K (dx / d, dz / d), |K| = K sqrt(1 + s^2), and
+    // the kick is three tenths of d.
+    EXPECT_NEAR(StabilityLab(wall, settings_).variation(), 0.3 * share / std::hypot(1, share),
+                1e-6);
+  }
+}
+
 TEST_F(StabilityLabAtAWall, ReportsProgressAndStopsOnRequest) {
   int calls = 0;
   EXPECT_THROW(zWidth(wall_, settings_, {1000}, {0.5, 1}, {0},

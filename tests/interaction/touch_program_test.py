@@ -5,12 +5,16 @@
 import json
 import re
 import unittest
+from pathlib import Path
 
 import numpy as np
 
 from support.touch import PRESS, RATE, REST, SIZE, STROKE, TOP, Touch, block_model, path, write_recording
 from support.touch_program import WITHOUT_DISPLAY, Program
 from support.window import read_picture
+
+
+DATA = Path(__file__).resolve().parents[2] / "data"
 
 
 class Headless(Program):
@@ -220,6 +224,16 @@ class Lab(Program):
         for option in (("--seconds", 1), ("--rate", 500), ("--friction", 1), ("--plan",)):
             self.run_badly("excludes", "touch", self.model, "--lab", *option)
 
+    def test_tells_where_the_stiffness_varies_along_the_way_and_the_bound_says_little(self):
+        coarse, fine = self.folder / "coarse.vtp", self.folder / "fine.vtp"
+        self.start("precompute", DATA / "kidney.vtp", coarse)
+        self.run_well("refine", DATA / "kidney.vtp", fine, "--levels", 2)
+        self.start("precompute", fine, fine)
+        for model, uneven in ((coarse, True), (fine, False), (self.model, False)):
+            ran = self.start("touch", model, "--lab", "--rates", 1000, "--dampings", 1, "--delays", 0)
+            stable, bound = (float(x) for x in ran.stdout.splitlines()[-1].split()[-2:])
+            self.assertEqual(uneven, stable < 0.9 * bound, ran.stdout)
+            self.assertEqual(uneven, bool(re.search(r"warning: the stiffness varies by \d+ % along", ran.stderr)))
 
 
 class Grasp(Program):

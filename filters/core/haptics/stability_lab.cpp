@@ -138,6 +138,19 @@ Eigen::Matrix3d stiffnessAt(TouchModel& model, const ToolPose& pose, double diff
   return stiffness;
 }
 
+/// The same where the tool comes to from there, pressed anew.
+Eigen::Matrix3d stiffnessFrom(const ToolPose& pressed, const ToolPose& moved, TouchModel& model,
+                              const Eigen::Vector3d& place, double difference) {
+  ToolPose pose = pressed;
+  Wrench wrench;
+  model.reset();
+  for (const Eigen::Vector3d& next : {place, pressed.position, moved.position}) {
+    pose.position = next;
+    model.step(&pose, &wrench);
+  }
+  return stiffnessAt(model, moved, difference);
+}
+
 }  // namespace
 
 StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
@@ -165,6 +178,15 @@ StabilityLab::StabilityLab(TouchModel& model, const LabSettings& settings)
         "the model does not resist the press: place and direction must lead into its surface");
   const Eigen::Matrix3d symmetric = (stiffness + stiffness.transpose()) / 2;
   modes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric).eigenvectors();
+  for (int axis = 0; axis < 3; ++axis)
+    for (double way : {-kKick, kKick}) {
+      ToolPose moved = pose;
+      moved.position += way * settings.depth * modes_.col(axis);
+      const Eigen::Matrix3d change =
+          stiffnessFrom(pose, moved, *model_, settings.place, kDifference * settings.depth) -
+          stiffness;
+      variation_ = std::max(variation_, change.operatorNorm() / stiffness_);
+    }
 }
 
 LabRun StabilityLab::run(double stiffness, const Progress& progress) const {

@@ -57,6 +57,11 @@ class StabilityLab {
   /// The force against the press over the depth, N/m: of one direction, and not more.
   double pressStiffness() const noexcept { return pressStiffness_; }
 
+  /// By how much the model's stiffness matrix differs, |K' - K| / |K|, where the kick takes the
+  /// device at most. Beyond a few per cent the model is not the spring that the Colgate bound is
+  /// of: the contact slips over to faces of another stiffness, as on a mesh of very few vertices.
+  double variation() const noexcept { return variation_; }
+
   /// @param stiffness  that the model's own is scaled to, N/m.
   /// @param progress   reported to now and then; how far it comes is not known beforehand.
   /// @throws std::invalid_argument if it is not positive; Aborted if `progress` asks for it.
@@ -73,7 +78,7 @@ class StabilityLab {
   Eigen::Vector3d direction_;
   Eigen::Vector3d resistance_ = Eigen::Vector3d::Zero();  ///< to the press at rest, on the model, N
   Eigen::Matrix3d modes_;  ///< axes of the model's stiffness at rest, the columns
-  double pressStiffness_, stiffness_;
+  double pressStiffness_, stiffness_, variation_ = 0;
 };
 
 /// Z-width of a model (Colgate & Brown 1994): a point for each rate, damping and delay, the delay
