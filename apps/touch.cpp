@@ -164,6 +164,7 @@ void addTouch(CLI::App& program) {
   command->callback([options, command] {
     options->deviceGiven = command->count("--device") > 0;
     requireSensible(*options);
+    options->waitsForMouse = waitsForMouse(*options);
     run(*options);
   });
 }

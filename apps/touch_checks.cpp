@@ -102,4 +102,14 @@ void requireSensible(const TouchOptions& options) {
   requireDistinctFiles(options, scene);
 }
 
+bool waitsForMouse(const TouchOptions& options) {
+  if (options.scene.empty()) return options.device == "mouse";
+  const Scene scene = readScene(options.scene);
+  return std::any_of(scene.tools.begin(), scene.tools.end(), [&](const SceneTool& tool) {
+    const bool isReplaced = options.deviceGiven && tool.device == scene.tools[0].device;
+    return isReplaced ? options.device == "mouse"
+                      : scene.devices[tool.device].type == DeviceType::Mouse;
+  });
+}
+
 }  // namespace palpate::app

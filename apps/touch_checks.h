@@ -12,4 +12,7 @@ struct TouchOptions;
 /// @throws CLI::ParseError, std::invalid_argument or std::runtime_error with a sentence.
 void requireSensible(const TouchOptions& options);
 
+/// Whether a tool is moved by the mouse, which needs a window.
+bool waitsForMouse(const TouchOptions& options);
+
 }  // namespace palpate::app

@@ -242,6 +242,10 @@ void runHeadless(const TouchOptions& options) {
   if (!options.forces.empty()) writeForces(style, options.forces);
   if (window) window->write(options.image);
   printState(style);
+  if (options.waitsForMouse)
+    std::cout << "nothing moved the mouse's tool, which needs a window: --device simulated presses "
+                 "and lifts, --device scripted:FILE replays a recording\n"
+              << std::flush;
 }
 
 /// Ends an interactor after some time, or when it is interrupted.

@@ -21,6 +21,7 @@ struct TouchOptions {
   std::string deformation;  ///< all, visible, contact, none; empty: as it is
   std::string record, forces, image;
   bool headless = false, plan = false;
+  bool waitsForMouse = false;         ///< whether a tool is moved in a window alone
   double seconds = 0;                 ///< to run, 0 until the window is closed
   bool (*isInterrupted)() = nullptr;  ///< asked while it runs
 

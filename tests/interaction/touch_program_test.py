@@ -157,6 +157,18 @@ class Headless(Program):
             self.assertEqual(ran.returncode, 0, ran.stderr)
             self.assertEqual(told, "warning: solver.margin, 0.05 m, is much wider than" in ran.stderr, ran.stderr)
 
+    def test_the_mouse_moves_nothing_without_a_window_and_that_is_told(self):
+        told = "nothing moved the mouse's tool, which needs a window: --device simulated presses and lifts"
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps({
+            "models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
+            "devices": [{"name": "m", "type": "mouse"}]}))
+        run = ("--headless", "--seconds", 0.1)
+        for of_mouse in (("touch", self.model), ("touch", "--scene", scene)):
+            self.assertIn(told, self.run_well(*of_mouse, *run))
+            self.assertNotIn(told, self.run_well(*of_mouse, *run, "--device", "simulated"))
+            self.assertNotIn(told, self.run_well(*of_mouse, "--plan"))
+
     def test_probes_of_a_scene_are_told_with_their_displacements(self):
         write_recording(self.folder / "press.txt", path(*PRESS))
         scene = self.folder / "scene.json"
