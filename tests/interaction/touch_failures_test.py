@@ -49,6 +49,25 @@ class Failures(Program):
                        "hid:0001:0002")
         self.run_badly("the recording 'none.txt' cannot be opened", *touch, "scripted:none.txt")
 
+    def test_of_a_scene_are_those_of_its_plan_too(self):
+        scene = self.folder / "scene.json"
+        described = {"models": [{"file": str(self.model)}], "tools": [{"shape": "point", "device": "m"}],
+                     "devices": [{"name": "m", "type": "simulated"}]}
+        (self.folder / "empty.txt").write_text("")
+        for sentence, change in (
+                ("is not inside the material", {"effects": {"probes": [{"name": "a", "inside": [0, 0, 1]}]}}),
+                ("the probe 'a' is at node 999999", {"effects": {"probes": [{"name": "a", "node": 999999}]}}),
+                ("none.txt' cannot be opened", {"devices": [{"name": "m", "type": "scripted", "file": "none.txt"}]}),
+                ("empty.txt': the file ends", {"devices": [{"name": "m", "type": "scripted", "file": "empty.txt"}]}),
+                ("none.json' cannot be opened",
+                 {"devices": [{"name": "m", "type": "hid", "description": "none.json"}]}),
+                ("none.stl", {"tools": [{"shape": "mesh", "file": "none.stl", "device": "m"}]})):
+            scene.write_text(json.dumps({**described, **change}))
+            run = ("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+            self.run_badly(sentence, *run)
+            self.assertEqual(self.start(*run).stderr, self.start("touch", "--scene", scene, "--plan").stderr)
+            self.run_badly(sentence, "touch", "--scene", scene, "--plan")
+
     def test_of_arguments_say_how_to_mend_them(self):
         self.run_badly("--headless needs --seconds, which is required", "touch", self.model, "--headless")
         self.run_badly("a model or a --scene, one of the two, is required", "touch")

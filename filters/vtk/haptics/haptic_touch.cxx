@@ -5,7 +5,6 @@
 
 #include "contact/unilateral_contact_settings.h"
 #include "haptics/evaluation_plan.h"
-#include "haptics/pressing_hand.h"
 
 #include "vtkPolyData.h"
 
@@ -18,10 +17,7 @@ namespace palpate
 {
 namespace
 {
-constexpr double MouseSpeed = 3;           ///< diagonals of the body a second
-constexpr double RecordedSeconds = 120;    ///< at most
-constexpr double Unlimited = 1e9;          ///< a mouse hurts nobody
-constexpr double Day = 86400;              ///< s
+constexpr double Day = 86400; ///< s
 } // namespace
 
 HapticTouch::HapticTouch()
@@ -73,6 +69,7 @@ std::string HapticTouch::EvaluationPlan()
   {
     throw std::invalid_argument("there is no model to plan for");
   }
+  this->RequireRunnable();
   std::vector<BodySizes> sizes;
   for (const SceneBody& body : this->Loaded.Bodies)
   {
@@ -169,98 +166,6 @@ void HapticTouch::Reset()
 vtkPolyData* HapticTouch::Touched() const
 {
   return this->Loaded.FirstModel;
-}
-
-/// What moves a tool.
-/// @param mesh  the tool's, if it is one.
-std::shared_ptr<HapticDevice> HapticTouch::Open(const SceneTool& tool, const SurfaceMesh* mesh)
-{
-  const SceneDevice& device = this->Described().devices[tool.device];
-  const double rate = this->Described().servo.rate;
-  if (device.type == DeviceType::Mouse)
-  {
-    return this->OpenMouse();
-  }
-  if (device.type == DeviceType::Hid)
-  {
-    return openHid(device);
-  }
-  if (device.type == DeviceType::Simulated)
-  {
-    return pressingDevice(
-      planPress(this->Loaded.Bodies[0], tool, mesh, this->Pressed), device.mapping, 1 / rate);
-  }
-  const auto script = openScript(device, tool, rate);
-  if (!this->FirstScript)
-  {
-    this->FirstScript = script;
-  }
-  return script;
-}
-
-std::shared_ptr<HapticDevice> HapticTouch::OpenMouse()
-{
-  if (this->Pointer)
-  {
-    throw std::invalid_argument("there is one mouse: it can move one tool only");
-  }
-  const SurfaceMesh& mesh = *this->Loaded.Bodies[0].mesh;
-  this->Pointer = std::make_shared<MouseDevice>(
-    1 / this->Described().servo.rate, MouseSpeed * mesh.diagonal());
-  this->PointerPose.position = mesh.points().rowwise().maxCoeff().array() + mesh.diagonal();
-  this->Pointer->PutAtOnce(this->PointerPose);
-  return this->Pointer;
-}
-
-void HapticTouch::Prepare()
-{
-  if (this->Loop)
-  {
-    return;
-  }
-  if (this->Loaded.Bodies.empty())
-  {
-    throw std::invalid_argument("there is no model to touch: set one or load a scene");
-  }
-  std::vector<std::shared_ptr<const SurfaceMesh>> meshes(this->Described().tools.size());
-  this->Change(); // what is left of an attempt that failed
-  this->Looks.clear();
-  this->Silent.clear();
-  this->Pressed.clear();
-  std::vector<ServoTool> hands;
-  for (std::size_t t = 0; t < this->Described().tools.size(); ++t)
-  {
-    LoadedTool tool =
-      loadTool(this->Described().tools[t], this->Loaded.Bodies[0].mesh->diagonal());
-    this->Looks.push_back(std::move(tool.Look));
-    meshes[t] = std::move(tool.Mesh);
-    const SceneDevice& described = this->Described().devices[this->Described().tools[t].device];
-    ServoTool hand;
-    hand.device = this->Open(this->Described().tools[t], meshes[t].get());
-    hand.mapping = described.mapping;
-    this->Silent.push_back(
-      described.type != DeviceType::Mouse && hand.device->info().largestForce == 0);
-    if (described.type == DeviceType::Mouse)
-    {
-      hand.safety.largestForce = hand.safety.largestTorque = hand.safety.forceSlew =
-        hand.safety.torqueSlew = hand.safety.largestSpeed = hand.safety.largestTurning =
-          hand.safety.largestReach = Unlimited;
-    }
-    if (t == 0 && !this->RecordFile.empty())
-    {
-      this->Recorder = std::make_shared<RecordingDevice>(hand.device,
-        static_cast<std::size_t>(RecordedSeconds * this->Described().servo.rate),
-        this->Described().servo.rate);
-      hand.device = this->Recorder;
-    }
-    hands.push_back(std::move(hand));
-  }
-  this->Loaded.Bodies[0].probeRows = rowsOfProbesInside(this->Described(), this->Loaded.Bodies[0]);
-  this->Session = std::make_unique<TouchSession>(this->Described(), this->Loaded.Bodies, meshes);
-  this->Cautions = warningsOf(this->Described(), this->Loaded.Bodies);
-  this->None.setZero(3, this->Loaded.Bodies[0].mesh->vertexCount());
-  this->Loop =
-    std::make_unique<ServoLoop>(this->Session->model(), hands, this->Described().servo);
 }
 
 void HapticTouch::Start()

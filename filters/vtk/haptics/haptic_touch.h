@@ -29,6 +29,7 @@ public:
   const palpate::Scene& Scene() const { return this->Loaded.Described; }
   void SetModel(vtkPolyData* model);
   void LoadScene(const std::string& fileName);
+  /// @throws what Prepare would, but for a HID device that is not there.
   std::string EvaluationPlan();
   /// The first tool; the others stay.
   /// @param radius  of a ball; 0 for a point.
@@ -104,9 +105,15 @@ public:
   void SetMousePose(const ToolPose& pose) { this->PointerPose = pose; }
 
 private:
+  static constexpr double RecordedSeconds = 120; ///< at most
+
   void Change();
   std::shared_ptr<HapticDevice> Open(const SceneTool& tool, const SurfaceMesh* mesh);
   std::shared_ptr<HapticDevice> OpenMouse();
+  std::vector<std::shared_ptr<const SurfaceMesh>> LoadTools();
+  ServoTool OpenHand(const SceneTool& tool, const SurfaceMesh* mesh);
+  void BeginSession(const std::vector<std::shared_ptr<const SurfaceMesh>>& meshes);
+  void RequireRunnable();
   std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
   double MeanEdge() const;
 
