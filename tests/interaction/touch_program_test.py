@@ -57,6 +57,25 @@ class Headless(Program):
             # Along the normal, in which it is stiffest, no less than were it alike in all directions.
             self.assertTrue(rigid < shown < 3**0.5 * rigid, shown)
 
+    def test_no_point_is_stiffer_than_its_device_renders_stably(self):
+        def shown(stiffness, *options):
+            ran = self.start(*self.scripted(PRESS, limits=f"3.3 0.1 {stiffness}"), "--seconds", REST + 0.4, *options)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            return float(re.search(r"tool 0   force \S+ \S+ (\S+) N", ran.stdout)[1]) / 0.002, ran.stderr
+        own, silent = shown(0)
+        self.assertEqual((own, silent), shown(1e4))
+        self.assertEqual(silent, "")
+        soft, told = shown(own / 4)
+        self.assertTrue(own / 4 / 3**0.5 < soft <= own / 4, (own, soft))
+        limit = float(re.search(r"warning: the model's stiffness, up to \S+ N/m, is limited to the (\S+) N/m "
+                                "that the device states to render stably", told)[1])
+        self.assertAlmostEqual(limit, own / 4, delta=1e-3 * own)
+        self.assertEqual(soft, shown(own / 4, "--rigid-stiffness", 1e6)[0])
+        ball = ("--tool-radius", 0.02)
+        self.assertEqual(shown(1e4, *ball)[1], "")
+        self.assertRegex(shown(1, *ball)[1], r"a vertex of the model has a stiffness of up to \S+ N/m, a tool that "
+                                             "touches several more, but the device states to render 1 N/m stably")
+
     def test_contacts_that_there_is_no_room_for_are_told_and_the_rest_is_rendered(self):
         ball = (*self.scripted(PRESS), "--seconds", REST + 0.4, "--tool-radius", 0.02)
         plenty, few = self.run_well(*ball), self.run_well(*ball, "--contacts", 2)

@@ -297,6 +297,23 @@ class Scenes(Touching):
             tools=[{"shape": "mesh", "file": "open.vtp", "device": "mouse"}])))
         self.refuse(style, "open.vtp: ", style.RunHeadless, 0.1)
 
+    def test_do_not_lift_what_a_device_renders_stably(self):
+        depth, most = 0.002, 30
+        style = self.scripted(np.repeat(path(*PRESS)[[1100]], 2000, axis=0), limits=f"3.3 0.1 {most}")
+        free = self.scripted(np.repeat(path(*PRESS)[[1100]], 2000, axis=0))
+        style.AddObserver("WarningEvent", lambda *_: None)
+        for touch in (style, free):
+            self.run_well(touch, 1)
+        self.assertIn("is limited to the 30 N/m that the device states to render stably", style.GetWarnings())
+        for method, value in (("SetStiffnessScale", 10), ("SetRigidStiffness", 1e6), ("SetMaskRadius", 0.05),
+                              ("SetStiffnessScale", 100), ("SetStiffnessScale", 1)):
+            for touch in (style, free):
+                self.assertTrue(getattr(touch, method)(value))
+                self.run_well(touch, 0.2)
+            self.assertLess(np.linalg.norm(style.force()), most * depth * (1 + 1e-9))
+            self.assertGreater(np.linalg.norm(style.force()), 0.5 * most * depth)
+            self.assertGreater(np.linalg.norm(free.force()), 1.1 * most * depth)
+
     def test_have_a_plan_of_what_is_computed(self):
         style = Touch(block_model())
         plan = style.GetEvaluationPlan()

@@ -35,7 +35,7 @@ struct DeviceInfo {
   std::string name;
   double largestForce = 0;      ///< N
   double largestTorque = 0;     ///< N m
-  double largestStiffness = 0;  ///< N/m, 0 if not known
+  double largestStiffness = 0;  ///< N/m, rendered stably; 0 if not known
   double reportRate = 0;        ///< new states a second, 0 if not known
 };
 

@@ -115,6 +115,8 @@ private:
   void BeginSession(const std::vector<std::shared_ptr<const SurfaceMesh>>& meshes);
   void RequireRunnable();
   std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
+  std::shared_ptr<const SurfaceStiffness> Bounded(std::shared_ptr<const SurfaceStiffness> stiffness) const;
+  void BoundStiffness(const std::vector<ServoTool>& hands);
   double MeanEdge() const;
 
   palpate::Scene& Described() { return this->Loaded.Described; }
@@ -126,6 +128,7 @@ private:
   std::vector<bool> Silent; ///< whether a tool's device can render no force
   std::vector<Eigen::Vector3d> Pressed; ///< where simulated hands do
   std::vector<std::string> Cautions;    ///< of the session as it began
+  double DeviceStiffness = 0; ///< most that all devices render stably, N/m in the scene; 0 if not known
   std::shared_ptr<MouseDevice> Pointer;
   ToolPose PointerPose;
   std::shared_ptr<ScriptedDevice> FirstScript;

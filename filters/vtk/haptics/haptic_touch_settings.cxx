@@ -6,6 +6,8 @@
 #include "haptics/point_touch.h"
 #include "haptics/tool_touch.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -25,6 +27,30 @@ void requireRange(bool isInRange, const std::string& range, double value)
   if (!isInRange)
   {
     throw std::invalid_argument(range + ", not " + number);
+  }
+}
+/// |K|_2 of the stiffest free vertex as it is felt, N/m.
+double stiffest(const SurfaceStiffness& stiffness)
+{
+  double largest = 0;
+  for (int v : stiffness.greens().info().conditions.freeNodes())
+  {
+    const Eigen::Matrix3d felt = stiffness.haptic(v);
+    largest = felt.hasNaN() ? largest : std::max(largest, felt.operatorNorm());
+  }
+  return largest;
+}
+
+/// The same of vertices that are touched alone; 0 where none has a stiffness.
+double stiffestVertex(const SceneBody& body)
+{
+  try
+  {
+    return stiffest(SurfaceStiffness(body.greens, body.mesh, MaskShape::Linear, 0));
+  }
+  catch (const std::exception&)
+  {
+    return 0;
   }
 }
 } // namespace
@@ -56,6 +82,61 @@ std::shared_ptr<const SurfaceStiffness> HapticTouch::NewStiffness() const
     this->Loaded.Bodies[0].mesh, effects.maskShape, this->MaskRadius(), effects.stiffnessLimit);
 }
 
+/// The same, nowhere stiffer in any direction than all devices render stably: |K|_2 <= |K|_F, which k_Rigid
+/// bounds by sqrt(3) k_Rigid.
+std::shared_ptr<const SurfaceStiffness> HapticTouch::Bounded(
+  std::shared_ptr<const SurfaceStiffness> stiffness) const
+{
+  const double rigid = this->DeviceStiffness / std::sqrt(3.0);
+  return rigid > 0 && stiffness->rigidStiffness() > rigid ? stiffness->withRigidStiffness(rigid)
+                                                          : stiffness;
+}
+
+/// Bounds what points show by what their devices render stably, and tells what of it tools with a shape may
+/// exceed.
+void HapticTouch::BoundStiffness(const std::vector<ServoTool>& hands)
+{
+  this->DeviceStiffness = 0;
+  for (const ServoTool& hand : hands)
+  {
+    const double stated = hand.device->info().largestStiffness;
+    const double served = stated / (hand.mapping.forceScale * hand.mapping.scale);
+    if (served > 0 && (this->DeviceStiffness == 0 || served < this->DeviceStiffness))
+    {
+      this->DeviceStiffness = served;
+    }
+  }
+  if (this->DeviceStiffness == 0)
+  {
+    return;
+  }
+  char line[256];
+  if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
+  {
+    const auto own = points->stiffness();
+    if (const auto bounded = this->Bounded(own); bounded != own)
+    {
+      points->setStiffness(bounded);
+      std::snprintf(line, sizeof line,
+        "the model's stiffness, up to %.4g N/m, is limited to the %.4g N/m that the device states to "
+        "render stably",
+        stiffest(*own), this->DeviceStiffness);
+      this->Cautions.emplace_back(line);
+    }
+    return;
+  }
+  const double single = this->Described().effects.stiffnessScale * stiffestVertex(this->Loaded.Bodies[0]);
+  if (single > this->DeviceStiffness)
+  {
+    std::snprintf(line, sizeof line,
+      "a vertex of the model has a stiffness of up to %.4g N/m, a tool that touches several more, but the "
+      "device states to render %.4g N/m stably: lower the scene's stiffness_scale or its mapping's "
+      "force_scale",
+      single, this->DeviceStiffness);
+    this->Cautions.emplace_back(line);
+  }
+}
+
 void HapticTouch::SetMaskRadius(double radius)
 {
   requireRange(radius >= 0 && radius <= LargestRadius,
@@ -64,7 +145,7 @@ void HapticTouch::SetMaskRadius(double radius)
   this->Described().effects.maskRadiusEdges = 0;
   if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
   {
-    points->setStiffness(this->NewStiffness());
+    points->setStiffness(this->Bounded(this->NewStiffness()));
   }
 }
 
@@ -81,7 +162,9 @@ void HapticTouch::SetStiffnessScale(double scale)
   if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
   {
     const double modulus = this->Loaded.Bodies[0].greens->info().material.youngsModulus();
-    points->setStiffness(points->stiffness()->withYoungsModulus(modulus * scale));
+    const auto whole =
+      points->stiffness()->withRigidStiffness(this->Described().effects.stiffnessLimit);
+    points->setStiffness(this->Bounded(whole->withYoungsModulus(modulus * scale)));
   }
   else
   {
@@ -96,7 +179,7 @@ void HapticTouch::SetRigidStiffness(double stiffness)
   this->Described().effects.stiffnessLimit = stiffness;
   if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
   {
-    points->setStiffness(points->stiffness()->withRigidStiffness(stiffness));
+    points->setStiffness(this->Bounded(points->stiffness()->withRigidStiffness(stiffness)));
   }
 }
 

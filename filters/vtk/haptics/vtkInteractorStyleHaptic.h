@@ -118,7 +118,8 @@ public:
   ///@{
   /**
    * k_Rigid, N/m, the stiffness of fixed vertices: points show none of a larger Frobenius norm than theirs,
-   * sqrt(3) k_Rigid. 0 (default) for the stiffest free vertex. Takes effect at once.
+   * sqrt(3) k_Rigid. 0 (default) for the stiffest free vertex. Takes effect at once. A device that states what
+   * stiffness it renders stably bounds the Frobenius norm further, by that.
    */
   bool SetRigidStiffness(double stiffness);
   double GetRigidStiffness();
