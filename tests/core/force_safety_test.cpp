@@ -415,11 +415,24 @@ TEST_F(AHandThatFeels, ManyLateSolvesInARowAreAFaultAndFewAreNot) {
   tick();
 }
 
+/// What was cut near its tolerance presses as it should.
+TEST_F(AHandThatFeels, SolvesThatWereCutWithAResidualThatIsNotFeltAreNoFault) {
+  tickUntilItRenders();
+  request_.certificate.budgetCut = true;
+  request_.certificate.residual = 1e-3;
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(tick().force, request_.wanted.force);
+  EXPECT_EQ(faults(Fault::RoughSolves), 0);
+  request_.certificate.residual = 1.001e-3;
+  for (int i = 0; i < 20; ++i) tick();
+  EXPECT_EQ(faults(Fault::RoughSolves), 1);
+}
+
 TEST_F(AHandThatFeels, EachReasonToDoubtSolvesHasANameOfItsOwn) {
   const auto only = [](bool late, bool cut, bool heldBack) {
     ForceSafety::Request request;
     request.late = late;
     request.certificate.budgetCut = cut;
+    request.certificate.residual = cut ? 2e-3 : 0;
     request.certificate.heldBack = heldBack;
     return request;
   };

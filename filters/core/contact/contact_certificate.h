@@ -11,7 +11,7 @@ struct ContactCertificate {
   double coneViolation = 0;  ///< largest excess over the friction cone over the largest force
   int iterations = 0;
   int contactCount = 0;    ///< nodes, or points, that bear a force
-  bool budgetCut = false;  ///< whether iterations ended the solve before its tolerance was met
+  bool budgetCut = false;  ///< whether its limits ended the solve before its tolerance was met
   bool heldBack = false;   ///< whether a point that should slide has gone nowhere
   /// Whether contacts were left out for want of capacity: too small a force.
   bool truncated = false;

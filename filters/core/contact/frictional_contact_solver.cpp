@@ -18,7 +18,7 @@ constexpr int kFreshPatience = 20;    ///< and by fresh ones, which may wander b
 constexpr double kFreshWork = 4e5;  ///< contacts cubed, 54 flops each: some ms; of a bounded solve
 constexpr double kArmijo = 1e-4;    ///< share of the foreseen gain that a damped step must make
 constexpr int kHalvings = 8;        ///< of a step, at most
-constexpr int kSweeps = 8;          ///< at a time
+constexpr int kSweeps = 16;         ///< at a time
 constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
 
 /// Sum of the changes of two sites' weights; infinite for other nodes.
@@ -265,18 +265,19 @@ void FrictionalContactSolver::sweep() noexcept {
   for (int i = 0; i < count(); ++i) {
     const Eigen::Vector3d before = force(i);
     const Eigen::Vector3d after = project(i).force;
+    if (after == before) continue;
     forces_.segment<3>(3 * i) = after;
     compliance_->addColumn(i, after - before, displacement_.data());
   }
 }
 
-/// What is tried after a stage has not gained; sweeps come between Damped and Kept.
+/// What is tried after a stage has not gained; sweeps come before Whole and Kept. They are cheap,
+/// and find which contacts bear forces: an inverse made afresh after them is of use.
 FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexcept {
-  if (stage == Stage::Kept) return Stage::Whole;
   if (stage == Stage::Whole) return Stage::Damped;
   evaluate();
   for (int k = 0; k < kSweeps; ++k) sweep();
-  return Stage::Kept;
+  return stage == Stage::Kept ? Stage::Whole : Stage::Kept;
 }
 
 /// Puts every force into its cone. @return the largest excess there was over the largest force.
@@ -305,6 +306,7 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
       settings_.largestUpdates > 0 ? settings_.largestUpdates : std::numeric_limits<int>::max();
   constexpr double none = std::numeric_limits<double>::infinity();
   double best = none, goal = none, last = none;  // goal: best of this stage
+  double bestOfRound = none;
   Stage stage = Stage::Kept;
   int withoutGain = unsettled_ ? kPatience + 1 : 0;
   fresh_ = 0;
@@ -323,6 +325,12 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     if (certificate.budgetCut) break;
     const bool isStuck = withoutGain > (stage == Stage::Kept ? kPatience : kFreshPatience) ||
                          !std::isfinite(residual);
+    if (isStuck && stage == Stage::Kept && updatesLeft == 0) {
+      // Sweeps are all that is left.
+      certificate.budgetCut = best >= kEnoughGain * bestOfRound;
+      if (certificate.budgetCut) break;
+      bestOfRound = best;
+    }
     if (isStuck || (stage != Stage::Kept && !freshStep(stage))) {
       forces_.head(size) = best_.head(size);
       stage = next(stage);

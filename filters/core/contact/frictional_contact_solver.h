@@ -54,8 +54,9 @@ struct ContactSolverSettings {
 /// numerical comparisons", in: Advanced Topics in Nonsmooth Dynamics, 2018): sweeps of nonlinear
 /// Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)), and, where few contacts
 /// bear forces, Newton's steps with the inverse made afresh for each, whole at first, then damped
-/// by Armijo's rule on the norm of the residual. Contacts may depend on each other: the matrix is
-/// regularised, the residual is not.
+/// by Armijo's rule on the norm of the residual. With a limit to updates a solve ends as well, cut,
+/// when they are used up and a round of sweeps no longer halves the residual. Contacts may depend on
+/// each other: the matrix is regularised, the residual is not.
 ///
 /// All memory is reserved by the constructor; nothing else allocates or throws. The work of a solve
 /// is bounded by its settings alone, so that equal input gives equal output bit by bit.

@@ -105,6 +105,7 @@ ForceSafety::ForceSafety(const SafetySettings& settings, double period, double r
   require(s.undeliveredTicks >= 1, "undeliveredTicks", s.undeliveredTicks);
   require(s.failedSolves >= 1, "failedSolves", s.failedSolves);
   require(s.lateSolves >= 1, "lateSolves", s.lateSolves);
+  require(isPositive(s.roughResidual), "roughResidual", s.roughResidual);
 }
 
 /// A new report. What is valid but far from the last becomes what the next is measured from.
@@ -168,10 +169,12 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
 Fault ForceSafety::judgeSolve(const Request& request) noexcept {
   const bool failed = request.certificate.failed || !isFinite(request.wanted);
   failed_ = failed ? std::min(failed_ + 1, settings_.failedSolves) : 0;
-  const Fault doubt = request.late                    ? Fault::LateSolves
-                      : request.certificate.budgetCut ? Fault::RoughSolves
-                      : request.certificate.heldBack  ? Fault::HeldBack
-                                                      : Fault::None;
+  const bool rough =
+      request.certificate.budgetCut && !(request.certificate.residual <= settings_.roughResidual);
+  const Fault doubt = request.late                   ? Fault::LateSolves
+                      : rough                        ? Fault::RoughSolves
+                      : request.certificate.heldBack ? Fault::HeldBack
+                                                     : Fault::None;
   late_ = doubt != Fault::None ? std::min(late_ + 1, settings_.lateSolves) : 0;
   if (request.certificate.uncomputed) return Fault::Uncomputed;
   if (request.certificate.startedInside) return Fault::StartedInside;

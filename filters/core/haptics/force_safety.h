@@ -32,6 +32,9 @@ struct SafetySettings {
   int undeliveredTicks = 3;       ///< in a row are a fault
   int failedSolves = 3;           ///< in a row are a fault; the force fades from the first on
   int lateSolves = 20;            ///< late, rough or held back, in a row, are a fault
+  /// Residual above which a solve that was cut is rough. Up to a thousandth of the largest
+  /// contact's force, what a hand feels is right to about as much of the whole.
+  double roughResidual = 1e-3;
 };
 
 enum class Fault : std::uint8_t {
@@ -43,7 +46,7 @@ enum class Fault : std::uint8_t {
   Undelivered,    ///< the device takes no wrench
   FailedSolves,   ///< or forces that are not finite
   LateSolves,     ///< over the budget of time
-  RoughSolves,    ///< ended by their iterations before their tolerance was met
+  RoughSolves,    ///< cut before their tolerance was met, with a residual to be felt
   HeldBack,       ///< points that should slide and have gone nowhere
   Uncomputed,     ///< the model has no Green's functions where it is touched
   StartedInside,  ///< a point was inside the body when its touch began; the force ramps from there
