@@ -23,7 +23,10 @@ namespace palpate {
 /// smallest radius of a rigid tool (one and a half times that of a mesh or a hand), which would
 /// sink in between vertices, the one that lies deepest in it as the surface is deformed: the centre
 /// of pressure, whose force acts on the corners by its barycentric coordinates. It follows the tool
-/// from step to step. On tools of facets the triangle's normal is that of the contact.
+/// from step to step. On tools of facets the triangle's normal is that of the contact. Of slivers
+/// side by side some are left out: between the others the tool sinks in no deeper than between
+/// vertices. Its force goes on without jumps, but that a ball slips off an edge or vertex at which
+/// its force over its radius is more than their stiffness to the side: that is no equilibrium.
 ///
 /// A step finds the vertices near each obstacle, undeformed and as the last forces deform them (by
 /// conservative advancement: a vertex is looked at again only when an obstacle or the surface has

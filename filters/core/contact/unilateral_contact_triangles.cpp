@@ -9,20 +9,48 @@
 #include <limits>
 
 #include "contact/unilateral_contact.h"
+#include "mesh/triangle_queries.h"
 
 namespace palpate {
 namespace {
 
-/// Of the margin, how far an obstacle moves before a triangle that is near, but has its deepest
-/// point in a corner or on another part of the tool, is looked at again: the depth missed between
-/// is the square of it over twice the tool's radius.
-constexpr double kSoon = 1.0 / 32;
+/// How far an obstacle moves before a triangle that is near, but has its deepest point in a corner
+/// or on another part of the tool, is looked at again: of the margin, and of a smooth tool's
+/// radius. The depth missed between is the square of it over twice that radius.
+constexpr double kSoon = 1.0 / 32, kSoonOfRadius = 1.0 / 256;
 constexpr double kNeighbourhood = 0.1;  ///< of the mean edge
 constexpr int kBalanceSteps = 12;
 constexpr double kSiteAccuracy = 1e-4;  ///< of barycentric coordinates
-/// From a corner, in barycentric coordinates, where a point begins to be watched; it ends in the
-/// corner. Contacts that are nearer to each other than a hundredth of an edge say the same twice.
-constexpr double kOffCorner = 0.03;
+/// From a corner, in barycentric coordinates, where a point begins to be watched. Farther off, a
+/// tool that is small beside the edge would lie deep in the triangle by then, and the force jump.
+constexpr double kOffCorner = kSiteAccuracy;
+/// Slope of the gap along both edges from a corner, above which a point there is let go of: a
+/// ball's foot is then beyond the corner by so many of its radii. Below, noise would bring it back.
+constexpr double kBeyondCorner = 0.03;
+constexpr double kSameWay = 0.866;  ///< cosine between normals, from which triangles face one way
+
+/// Whether no point of a triangle is farther than so from another one that faces the same way. The
+/// distance from a triangle is convex: it is largest in a corner.
+bool isBeside(const SurfaceMesh& mesh, int triangle, int other, double distance) {
+  if (mesh.triangleNormals().col(triangle).dot(mesh.triangleNormals().col(other)) < kSameWay)
+    return false;
+  const auto corner = [&mesh](int t, int k) { return mesh.points().col(mesh.triangles()(k, t)); };
+  const Eigen::Vector3d a = corner(other, 0), b = corner(other, 1), c = corner(other, 2);
+  const double reach = mesh.longestEdge(other) + distance;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d x = corner(triangle, k);
+    if ((x - a).squaredNorm() > reach * reach) return false;
+    const Eigen::Vector3d at = nearestInTriangle(x, a, b, c);
+    if ((at[0] * a + at[1] * b + at[2] * c - x).squaredNorm() > distance * distance) return false;
+  }
+  return true;
+}
+
+double soon(const Obstacle& obstacle, double margin) {
+  const bool isOne = obstacle.tool < 0 && !obstacle.shape->isFaceted();
+  return isOne ? std::min(kSoon * margin, kSoonOfRadius * obstacle.shape->smallestRadius())
+               : kSoon * margin;
+}
 
 }  // namespace
 
@@ -32,8 +60,19 @@ struct UnilateralContact::FacePoint {
   Proximity near;
 
   bool isCorner(double within = 1e-9) const { return barycentric.maxCoeff() > 1 - within; }
+  /// Whether it would be beyond a corner if the triangle went on there.
+  bool isBeyondCorner(const Eigen::Matrix3d& corners) const {
+    if (!isCorner()) return false;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d edge = corners.col(k) - place;
+      if (barycentric[k] < 0.5 && near.normal.dot(edge) < kBeyondCorner * edge.norm()) return false;
+    }
+    return true;
+  }
 };
 
+/// Slivers beside one that is touched inside are left out, up to half the limit on either side: the
+/// gaps between are then no wider than the edges that are left alone.
 void UnilateralContact::findLargeTriangles() {
   for (MovingObstacle& moving : obstacles_) {
     if (moving.body > 0) continue;
@@ -44,8 +83,17 @@ void UnilateralContact::findLargeTriangles() {
     });
     const bool isMany = parts > 1 || shape.isFaceted();
     const double limit = (isMany ? kLargeEdgeOfMany : kLargeEdge) * shape.smallestRadius();
-    for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle)
-      if (mesh_->longestEdge(triangle) > limit) moving.large.push_back(triangle);
+    std::vector<int> slivers;
+    for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle) {
+      const double edge = mesh_->longestEdge(triangle);
+      if (edge <= limit) continue;
+      const bool isNarrow = 2 * mesh_->triangleAreas()[triangle] < limit / 2 * edge;
+      (isNarrow ? slivers : moving.large).push_back(triangle);
+    }
+    for (const int sliver : slivers)
+      if (std::none_of(moving.large.begin(), moving.large.end(),
+                       [&](int chosen) { return isBeside(*mesh_, sliver, chosen, limit / 2); }))
+        moving.large.push_back(sliver);
     moving.lookInside.assign(moving.large.size(), 0);
   }
 }
@@ -151,7 +199,7 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
   else if (point.isCorner(kOffCorner) || point.near.normal.dot(point.faceNormal) > kLargestCosine ||
            !isDeepestPart(obstacle, point))
-    lookAt = travelled_ + kSoon * margin_;
+    lookAt = travelled_ + soon(moving.obstacle, margin_);
   else if (watchInside(obstacle, slot, point))
     lookAt = std::numeric_limits<double>::infinity();
 }
@@ -223,7 +271,8 @@ bool UnilateralContact::moveInside(int contact, const Eigen::Matrix3d& corners,
 }
 
 /// Brings contacts inside triangles to where the obstacles are deepest. Between steps, stops
-/// watching those that bear nothing and are well away or in a corner, and those on another part.
+/// watching those that bear nothing and are well away or beyond a corner, and those on another
+/// part.
 /// @return whether it has moved any or let go of one.
 bool UnilateralContact::followInside(bool betweenSteps) noexcept {
   const auto isInside = [](const ContactAnchor& anchor) { return anchor.vertex < 0; };
@@ -239,14 +288,15 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
     const bool idle = solver_.force(contact).isZero(0);
     const FacePoint point = facePoint(
         obstacle, corners, idle ? deepestIn(obstacle, corners) : balance(contact, corners));
-    const bool isElsewhere = idle && (point.isCorner() || point.near.distance >= 2 * nearness);
+    const bool isElsewhere =
+        idle && (point.isBeyondCorner(corners) || point.near.distance >= 2 * nearness);
     if (!betweenSteps || (!isElsewhere && isDeepestPart(obstacle, point))) {
       if (!idle || point.near.distance < nearness / 2)
         isChanged = moveInside(contact, corners, point) || isChanged;
       continue;
     }
-    moving.lookInside[slot] =
-        travelled_ + std::max(kSoon * margin_, wayLeft(point.near.distance, nearness));
+    moving.lookInside[slot] = travelled_ + std::max(soon(moving.obstacle, margin_),
+                                                    wayLeft(point.near.distance, nearness));
     unwatch(contact);
     isChanged = true;
   }
