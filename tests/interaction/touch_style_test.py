@@ -62,9 +62,11 @@ class Forces(Touching):
             inside = positions[:, 2] < TOP[2]
             self.assertTrue((trace[~inside] == 0).all())
             self.assertTrue((trace[inside, 2] > 0).all())
-            # By symmetry: a point's up to rounding in forces of a newton, a ball's up to what a solve that is
-            # cut at its budget of updates leaves, a millionth.
-            self.assertLess(np.abs(trace[:, :2]).max(), 1e-5 * trace[:, 2].max() if radius else 1e-9)
+            # By symmetry, up to rounding in forces of a newton.
+            firm = trace[:, 2] > (0.05 * trace[:, 2].max() if radius else -1)
+            self.assertLess(np.abs(trace[firm, :2]).max(), 1e-9)
+            # In the last ticks of lifting off a ball's points inside triangles end one after another.
+            self.assertLess(np.abs(trace[:, :2]).max(), 1e-5 * trace[:, 2].max())
             deepest = positions[:, 2] == positions[:, 2].min()
             # The ball also touches triangles inside, at points that settle while it rests.
             self.assertLess(np.ptp(trace[deepest, 2]), 2e-3 * trace[deepest, 2].max() if radius else 1e-9)
