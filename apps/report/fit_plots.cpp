@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "report/page_parts.h"
 #include "report/plot.h"
@@ -57,8 +58,28 @@ Series marks(const std::string& name, const char* colour, double radius) {
   return series;
 }
 
-void addOutliers(std::vector<Series>& all, const Series& outliers) {
-  if (!outliers.x.empty()) all.push_back(outliers);
+/// Components as marks: a series an axis, and one of outliers, all of which are drawn, if there are
+/// any.
+/// @param placeOf  (x, y) of a component; called for each in turn.
+/// @param all      empty before.
+/// @return whether there are outliers.
+template <class Place>
+bool addMarks(const std::vector<Component>& components, const Place& placeOf,
+              std::vector<Series>& all) {
+  for (int axis = 0; axis < 3; ++axis) all.push_back(marks(kNames[axis], kComponents[axis], kMark));
+  Series outliers = marks("outlier, left out", kWrong, kOutlier);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const Component& c = components[i];
+    const std::pair<double, double> place = placeOf(c);
+    if (!c.isOutlier && !isDrawn(i, components.size())) continue;
+    Series& series = c.isOutlier ? outliers : all[c.axis];
+    series.x.push_back(place.first);
+    series.y.push_back(place.second);
+    if (c.isOutlier) series.isHollow.push_back(true);
+  }
+  if (outliers.x.empty()) return false;
+  all.push_back(outliers);
+  return true;
 }
 
 }  // namespace
@@ -70,18 +91,12 @@ std::string predictionPlot(const MeasuredData& data) {
     most = std::max({most, std::abs(c.measured), std::abs(c.predicted)});
   const LengthUnit unit = unitFor(most);
   Plot plot;
-  for (int axis = 0; axis < 3; ++axis)
-    plot.series.push_back(marks(kNames[axis], kComponents[axis], kMark));
-  Series outliers = marks("outlier, left out", kWrong, kOutlier);
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    const Component& c = components[i];
-    if (!c.isOutlier && !isDrawn(i, components.size())) continue;
-    Series& series = c.isOutlier ? outliers : plot.series[c.axis];
-    series.x.push_back(unit.perMetre * c.measured);
-    series.y.push_back(unit.perMetre * c.predicted);
-    if (c.isOutlier) series.isHollow.push_back(true);
-  }
-  addOutliers(plot.series, outliers);
+  addMarks(
+      components,
+      [&](const Component& c) {
+        return std::pair(unit.perMetre * c.measured, unit.perMetre * c.predicted);
+      },
+      plot.series);
   double low = 0, high = 0;
   for (const Series& series : plot.series)
     for (const auto* values : {&series.x, &series.y})
@@ -112,19 +127,13 @@ std::string residualPlot(const MeasuredData& data) {
   }
   const double rim = 1.15 * most;
   Plot plot;
-  for (int axis = 0; axis < 3; ++axis)
-    plot.series.push_back(marks(kNames[axis], kComponents[axis], kMark));
-  Series outliers = marks("outlier, left out", kWrong, kOutlier);
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    const Component& c = components[i];
-    const double along = double(++seen[c.probe]) / (double(counts[c.probe]) + 1) - 0.5;
-    if (!c.isOutlier && !isDrawn(i, components.size())) continue;
-    Series& series = c.isOutlier ? outliers : plot.series[c.axis];
-    series.x.push_back(c.probe + 1 + 0.8 * along);
-    series.y.push_back(std::clamp(c.deviations, -rim, rim));
-    if (c.isOutlier) series.isHollow.push_back(true);
-  }
-  addOutliers(plot.series, outliers);
+  const bool hasOutliers = addMarks(
+      components,
+      [&](const Component& c) {
+        const double along = double(++seen[c.probe]) / (double(counts[c.probe]) + 1) - 0.5;
+        return std::pair(c.probe + 1 + 0.8 * along, std::clamp(c.deviations, -rim, rim));
+      },
+      plot.series);
   const double last = double(counts.size()) + 0.5;
   for (double level : {kNormal, -kNormal})
     plot.series.push_back({level > 0 ? "95 % of noise" : "",
@@ -141,7 +150,7 @@ std::string residualPlot(const MeasuredData& data) {
   plot.height = 400;
   plot.legendWidth = 170;
   const std::string beyond =
-      outliers.x.empty() ? "" : " Outliers beyond " + number(rim, 2) + " stand at the rim.";
+      hasOutliers ? " Outliers beyond " + number(rim, 2) + " stand at the rim." : "";
   return figure(inlineSvg(plot),
                 "Residuals of components, measured less predicted, over their standard "
                 "deviation, marker after marker." +

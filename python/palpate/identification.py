@@ -177,9 +177,7 @@ def identify_field(surface, measurements, *, poisson=None, poisson_range=None, f
     set_unknowns(filter, poisson, poisson_range)
     set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, reciprocal)
     set_field(filter, modes, length, deviation)
-    filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
-    model = computed(filter, progress)
-    return model, filter.GetOutputDataObject(1)
+    return model_and_volume(filter, surface, fixed, progress)
 
 
 def identify_best(surface, measurements, *, poisson=None, poisson_range=None, fixed=None, method="bem",
@@ -236,8 +234,13 @@ def identify_best(surface, measurements, *, poisson=None, poisson_range=None, fi
     set_fit(filter, register, loss, folds, place_tolerance, smooth_angle, True)
     set_field(filter, modes, length, deviation)
     filter.SetYieldingSupport(flag(yielding_support, "yielding_support"))
+    return model_and_volume(filter, surface, fixed, progress)
+
+
+def model_and_volume(filter, surface, fixed, progress):
+    """What filters give that may find a field."""
     filter.SetInputData(posed(surface, None, None, fixed, require_material=False))
-    model = computed(filter, progress)
+    model = computed(filter, progress, stacklevel=4)
     return model, filter.GetOutputDataObject(1)
 
 

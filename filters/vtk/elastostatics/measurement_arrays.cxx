@@ -15,7 +15,6 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,22 +119,6 @@ void setPlaces(vtkPolyData* table, const char* vertexName, const char* pointName
   }
   table->GetFieldData()->AddArray(vertices);
   setFieldVectors(table, pointName, points);
-}
-
-void setTuples(vtkPolyData* table, const char* name, const Eigen::MatrixXd& rows)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(static_cast<int>(rows.cols()));
-  array->SetNumberOfTuples(rows.rows());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i)
-  {
-    for (Eigen::Index j = 0; j < rows.cols(); ++j)
-    {
-      array->SetComponent(i, static_cast<int>(j), rows(i, j));
-    }
-  }
-  table->GetFieldData()->AddArray(array);
 }
 
 void readProbes(vtkPolyData* table, double length, double force, Measurements& result)
@@ -320,91 +303,5 @@ void setMeasurements(vtkPolyData* table, const Measurements& measurements)
   setPlaces(table, arrays::ProbeVertex, arrays::ProbePoint, contacts);
   setColumn(table, arrays::ProbeRadius, radii);
   setFieldVectors(table, arrays::ProbeForce, forces);
-}
-
-void setIdentification(
-  vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements)
-{
-  setMeasurements(surface, measurements);
-  setVectorsWithGaps(surface, arrays::MeasurementResidual, result.residuals);
-  vtkNew<vtkUnsignedCharArray> outliers;
-  outliers->SetName(arrays::MeasurementOutlier);
-  outliers->SetNumberOfTuples(result.residuals.cols());
-  outliers->Fill(0);
-  for (int i : result.outliers)
-  {
-    outliers->SetValue(i, 1);
-  }
-  surface->GetFieldData()->AddArray(outliers);
-  std::vector<double> residuals, relative, counts;
-  for (const ProbeFit& probe : result.probes)
-  {
-    residuals.push_back(probe.residual);
-    relative.push_back(probe.relative);
-    counts.push_back(probe.outliers);
-  }
-  setColumn(surface, arrays::ProbeResidual, residuals);
-  setColumn(surface, arrays::ProbeRelativeResidual, relative);
-  setColumn(surface, arrays::ProbeOutliers, counts);
-  std::vector<std::string> names, units;
-  Eigen::MatrixXd values(result.parameters.size(), 4);
-  double poissonDeviation = 0;
-  for (std::size_t i = 0; i < result.parameters.size(); ++i)
-  {
-    const IdentifiedParameter& p = result.parameters[i];
-    names.push_back(p.name);
-    units.push_back(p.unit);
-    values.row(i) << p.value, p.deviation, p.lower, p.upper;
-    poissonDeviation = p.name == "Poisson's ratio" ? p.deviation : poissonDeviation;
-  }
-  setFieldStrings(surface, arrays::IdentifiedNames, names);
-  setFieldStrings(surface, arrays::IdentifiedUnits, units);
-  setTuples(surface, arrays::IdentifiedParameters, values);
-  setTuples(surface, arrays::IdentifiedCorrelations, result.correlations);
-  setFieldNumber(surface, arrays::YoungsModulusDeviation, result.parameters.front().deviation);
-  setFieldNumber(surface, arrays::PoissonRatioDeviation, poissonDeviation);
-  setFieldNumber(surface, arrays::SupportYieldLength, result.foundationLength);
-  setFieldNumber(surface, arrays::MeasurementNoise, result.noise);
-  setFieldNumber(surface, arrays::MeasurementMisfit, result.misfit);
-  setFieldNumber(surface, arrays::HoldOutError, result.holdOutError);
-  setFieldNumber(surface, arrays::FitError, result.fitError);
-  setFieldNumber(surface, arrays::ResponseInterpolationError, result.interpolationError);
-}
-
-void setNextProbes(
-  vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations)
-{
-  vtkNew<vtkIdTypeArray> vertices;
-  vertices->SetName(arrays::NextProbeVertex);
-  Eigen::Matrix3Xd forces(3, probes.size());
-  for (std::size_t i = 0; i < probes.size(); ++i)
-  {
-    vertices->InsertNextValue(probes[i].contact.vertex);
-    forces.col(i) = probes[i].force;
-  }
-  surface->GetFieldData()->AddArray(vertices);
-  setFieldVectors(surface, arrays::NextProbeForce, forces);
-  setTuples(surface, arrays::NextProbeDeviations, deviations);
-}
-
-void setRegistration(vtkPolyData* surface, const Registration& registration)
-{
-  std::vector<double> rotation, deviations;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      rotation.push_back(registration.rotation(i, j));
-    }
-  }
-  for (int i = 0; i < 6; ++i)
-  {
-    deviations.push_back(
-      i < 3 ? registration.rotationDeviation[i] : registration.translationDeviation[i - 3]);
-  }
-  setFieldNumbers(surface, arrays::RegistrationRotation, rotation);
-  setFieldVector(surface, arrays::RegistrationTranslation, registration.translation);
-  setFieldNumbers(surface, arrays::RegistrationDeviation, deviations);
-  setFieldNumber(surface, arrays::RegistrationDistance, registration.distance);
 }
 } // namespace palpate::convert

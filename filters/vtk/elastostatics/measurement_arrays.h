@@ -4,9 +4,7 @@
 #ifndef palpate_measurement_arrays_h
 #define palpate_measurement_arrays_h
 
-#include "identification/material_identification.h"
 #include "identification/measurements.h"
-#include "identification/registration.h"
 
 #include <string>
 #include <vector>
@@ -35,16 +33,6 @@ Measurements observationsFrom(
 
 /// Adds a table, in place of one that is there.
 void setMeasurements(vtkPolyData* table, const Measurements& measurements);
-
-/// Adds what was identified, but for the material itself; whatever takes the place of these Green's
-/// functions takes it away.
-void setIdentification(
-  vtkPolyData* surface, const MaterialIdentification& result, const Measurements& measurements);
-/// Adds probes that would tell most next.
-/// @param deviations  a row a probe: of all parameters with the probes up to it.
-void setNextProbes(
-  vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations);
-void setRegistration(vtkPolyData* surface, const Registration& registration);
 
 /// Field vectors, a tuple a column; unlike setFieldVectors' with NaN for what was not measured.
 void setVectorsWithGaps(vtkPolyData* table, const char* name, const Eigen::Matrix3Xd& values);

@@ -7,6 +7,7 @@
 #include "conversion.h"
 #include "identification/compliance_correction.h"
 #include "identified_material.h"
+#include "identification_arrays.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"

@@ -10,6 +10,7 @@
 #include "filled_surface.h"
 #include "identified_material.h"
 #include "identification/next_probes.h"
+#include "identification_arrays.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"

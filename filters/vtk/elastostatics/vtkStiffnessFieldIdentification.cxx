@@ -12,6 +12,7 @@
 #include "identification/registration.h"
 #include "identification/stiffness_field.h"
 #include "identification/stiffness_modes.h"
+#include "identification_arrays.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
 #include "probed_surface.h"

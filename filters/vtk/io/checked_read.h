@@ -60,6 +60,21 @@ void readWarily(const std::string& path, Data* output)
   readWith<Reader>(path, output);
 }
 
+/// Reads VTK's XML: a sealed file at once, others rehearsed first.
+/// @throws as requireWholeXml and readWith.
+template <class Reader, class Data>
+void readXml(const std::string& path, Data* output)
+{
+  if (requireWholeXml(path))
+  {
+    readWith<Reader>(path, output);
+  }
+  else
+  {
+    readWarily<Reader>(path, output);
+  }
+}
+
 /// @throws std::runtime_error naming a point that a cell refers to and that is not there.
 void requireConsistentCells(vtkCellArray* cells, vtkIdType pointCount);
 

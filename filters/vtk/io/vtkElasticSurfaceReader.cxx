@@ -9,8 +9,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
 #include "vtkObjectFactory.h"
@@ -26,28 +24,6 @@
 #include <string>
 
 vtkStandardNewMacro(vtkElasticSurfaceReader);
-
-vtkElasticSurfaceReader::vtkElasticSurfaceReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
-
-void vtkElasticSurfaceReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << this->FileName << "\n"
-     << indent << "FailureMessage: " << this->FailureMessage << "\n";
-}
-
-void vtkElasticSurfaceReader::SetFileName(const char* path)
-{
-  const std::string value = path ? path : "";
-  if (value != this->FileName)
-  {
-    this->FileName = value;
-    this->Modified();
-  }
-}
 
 namespace
 {
@@ -90,21 +66,16 @@ void setPolygons(const palpate::PolygonSoup& soup, vtkPolyData* output)
   output->SetPolys(polys);
 }
 
-void readFile(const std::string& path, vtkPolyData* output)
+} // namespace
+
+void vtkElasticSurfaceReader::Read(const std::string& path, vtkPolyData* output)
 {
   palpate::io::requireReadable(path);
   const std::string extension = vtksys::SystemTools::LowerCase(
     vtksys::SystemTools::GetFilenameLastExtension(path));
   if (extension == ".vtp")
   {
-    if (palpate::io::requireWholeXml(path))
-    {
-      palpate::io::readWith<vtkXMLPolyDataReader>(path, output);
-    }
-    else
-    {
-      palpate::io::readWarily<vtkXMLPolyDataReader>(path, output);
-    }
+    palpate::io::readXml<vtkXMLPolyDataReader>(path, output);
   }
   else if (extension == ".stl")
   {
@@ -143,24 +114,4 @@ void readFile(const std::string& path, vtkPolyData* output)
   }
   palpate::io::requireConsistentArrays(output->GetPointData(), points, "point");
   palpate::io::requireConsistentArrays(output->GetCellData(), output->GetNumberOfCells(), "cell");
-}
-} // namespace
-
-int vtkElasticSurfaceReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
-{
-  vtkPolyData* output = vtkPolyData::GetData(outputs);
-  this->FailureMessage.clear();
-  try
-  {
-    readFile(this->FileName, output);
-    return 1;
-  }
-  catch (const std::exception& failure)
-  {
-    this->FailureMessage = this->FileName + ": " + failure.what();
-  }
-  output->Initialize();
-  vtkErrorMacro(<< this->FailureMessage);
-  return 0;
 }

@@ -14,41 +14,22 @@
 #define vtkElasticSurfaceReader_h
 
 #include "PalpateIOModule.h" // for the export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkCheckedPolyDataReader.h"
 
-#include <string> // for the path
-
-class PALPATEIO_EXPORT vtkElasticSurfaceReader : public vtkPolyDataAlgorithm
+class PALPATEIO_EXPORT vtkElasticSurfaceReader : public vtkCheckedPolyDataReader
 {
 public:
   static vtkElasticSurfaceReader* New();
-  vtkTypeMacro(vtkElasticSurfaceReader, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Path of the file.
-   */
-  void SetFileName(const char* path);
-  const char* GetFileName() const { return this->FileName.c_str(); }
-  ///@}
-
-  /**
-   * The sentence of the last execution's failure, empty if it succeeded.
-   */
-  const char* GetFailureMessage() const { return this->FailureMessage.c_str(); }
+  vtkTypeMacro(vtkElasticSurfaceReader, vtkCheckedPolyDataReader);
 
 protected:
-  vtkElasticSurfaceReader();
+  vtkElasticSurfaceReader() = default;
   ~vtkElasticSurfaceReader() override = default;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  void Read(const std::string& path, vtkPolyData* output) override;
 
 private:
   vtkElasticSurfaceReader(const vtkElasticSurfaceReader&) = delete;
   void operator=(const vtkElasticSurfaceReader&) = delete;
-
-  std::string FileName, FailureMessage;
 };
 
 #endif

@@ -15,41 +15,22 @@
 #define vtkMeasurementTableReader_h
 
 #include "PalpateIOModule.h" // for the export macro
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkCheckedPolyDataReader.h"
 
-#include <string> // for the path
-
-class PALPATEIO_EXPORT vtkMeasurementTableReader : public vtkPolyDataAlgorithm
+class PALPATEIO_EXPORT vtkMeasurementTableReader : public vtkCheckedPolyDataReader
 {
 public:
   static vtkMeasurementTableReader* New();
-  vtkTypeMacro(vtkMeasurementTableReader, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Path of the file.
-   */
-  void SetFileName(const char* path);
-  const char* GetFileName() const { return this->FileName.c_str(); }
-  ///@}
-
-  /**
-   * The sentence of the last execution's failure, empty if it succeeded.
-   */
-  const char* GetFailureMessage() const { return this->FailureMessage.c_str(); }
+  vtkTypeMacro(vtkMeasurementTableReader, vtkCheckedPolyDataReader);
 
 protected:
-  vtkMeasurementTableReader();
+  vtkMeasurementTableReader() = default;
   ~vtkMeasurementTableReader() override = default;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  void Read(const std::string& path, vtkPolyData* output) override;
 
 private:
   vtkMeasurementTableReader(const vtkMeasurementTableReader&) = delete;
   void operator=(const vtkMeasurementTableReader&) = delete;
-
-  std::string FileName, FailureMessage;
 };
 
 #endif
