@@ -57,13 +57,9 @@ std::vector<std::string> chosenKnobs(const AccuracyOptions& options, const BodyL
     known.erase(std::remove(known.begin(), known.end(), knob), known.end());
   };
   if (isFile(options.reference)) drop("mask");
-  std::string list;
-  for (const std::string& knob : known) list += (list.empty() ? "" : ", ") + knob;
-  for (const std::string& knob : options.knobs)
-    if (std::find(known.begin(), known.end(), knob) == known.end())
-      throw std::invalid_argument("there is no knob '" + knob + "' of the query " + options.query +
-                                  " and the method " + options.method + " against the reference " +
-                                  options.reference + ": choose some of " + list);
+  requireKnown(options.knobs, known,
+               "the query " + options.query + " and the method " + options.method +
+                   " against the reference " + options.reference);
   if (!options.knobs.empty()) return options.knobs;
   if (!hasSharpEdges) drop("edges");
   if (body.material().poissonRatio() >= Elasticity::kSplitFrom) drop("element");

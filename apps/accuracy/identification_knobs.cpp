@@ -3,10 +3,9 @@
 
 #include "accuracy/identification_knobs.h"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "accuracy/knobs.h"
 #include "accuracy/tetrahedra.h"
 #include "terminal.h"
 
@@ -75,12 +74,7 @@ std::vector<IdentificationTrial> identificationTrials(const std::vector<std::str
                                                       const std::vector<int>& levels,
                                                       bool hasBothMethods) {
   const std::vector<std::string> known = knownKnobs(hasBothMethods);
-  std::string list;
-  for (const std::string& knob : known) list += (list.empty() ? "" : ", ") + knob;
-  for (const std::string& knob : chosen)
-    if (std::find(known.begin(), known.end(), knob) == known.end())
-      throw std::invalid_argument("there is no knob '" + knob +
-                                  "' of the query identification: choose some of " + list);
+  requireKnown(chosen, known, "the query identification");
   std::vector<IdentificationTrial> trials;
   for (const std::string& knob : chosen.empty() ? known : chosen)
     addKnob(knob, base, levels, trials);

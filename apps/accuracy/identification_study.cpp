@@ -25,6 +25,7 @@
 
 #include "accuracy/identification_knobs.h"
 #include "accuracy/timing.h"
+#include "file_kinds.h"
 #include "process_memory.h"
 #include "subdivision_option.h"
 #include "terminal.h"
@@ -32,8 +33,8 @@
 namespace palpate::app {
 namespace {
 
-constexpr double kPlaceTolerance =
-    0.1;  ///< of diagonals: coarse levels lie off the truth's surface
+/// Of diagonals: coarse levels lie off the truth's surface.
+constexpr double kPlaceTolerance = 0.1;
 constexpr int kOtherProbes = 12, kOtherMarkers = 60, kOtherSeed = 1000;
 constexpr int kLeastRuns = 2;
 
@@ -46,11 +47,6 @@ struct Outcome {
   std::string failure;
 };
 
-bool isVolume(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".vtu" || extension == ".vtk";
-}
-
 void requireSensible(const AccuracyOptions& o) {
   const auto require = [](bool isSensible, const std::string& sentence) {
     if (!isSensible) throw std::invalid_argument(sentence);
@@ -59,7 +55,8 @@ void requireSensible(const AccuracyOptions& o) {
           "say by --rig what is measured: a model of the same body, of another mesh or method");
   require(o.method == "bem" || o.method == "fem",
           "--query identification takes the methods bem and fem, not " + o.method);
-  require(!isVolume(o.input) || o.method == "fem", o.input + " is a volume mesh: add --method fem");
+  require(!isVolumeFile(o.input) || o.method == "fem",
+          o.input + " is a volume mesh: add --method fem");
   require(o.reference.empty() && o.referenceLevel == 0,
           "the reference of --query identification is the model of --rig: leave --reference and "
           "--reference-level out");
@@ -92,7 +89,7 @@ class IdentificationRun {
     table_ = measured(truth, options, false);
     others_ = convert::measurementsOf(measured(truth, options, true));
     vtkNew<vtkReferenceBoundaryConditions> conditions;
-    if (isVolume(options.input)) {
+    if (isVolumeFile(options.input)) {
       levels_ = {1};
       grid_ = readVolume(options.input);
       vtkNew<vtkSolidBoundary> boundary;

@@ -224,6 +224,16 @@ std::vector<std::string> knobsOf(QueryKind query, Method method, bool isPointSou
   return knobs;
 }
 
+void requireKnown(const std::vector<std::string>& chosen, const std::vector<std::string>& known,
+                  const std::string& whose) {
+  std::string list;
+  for (const std::string& knob : known) list += (list.empty() ? "" : ", ") + knob;
+  for (const std::string& knob : chosen)
+    if (std::find(known.begin(), known.end(), knob) == known.end())
+      throw std::invalid_argument("there is no knob '" + knob + "' of " + whose +
+                                  ": choose some of " + list);
+}
+
 std::vector<Trial> trialsOf(const std::vector<std::string>& knobs, const Setting& base,
                             const std::vector<int>& levels, const BodyLevels& body) {
   Knobs all(base, levels, body);

@@ -11,6 +11,11 @@ namespace palpate::app {
 /// The knobs of a query and a method, in the order of the tables.
 std::vector<std::string> knobsOf(QueryKind query, Method method, bool isPointSource);
 
+/// @param whose  what they are knobs of, for the sentence.
+/// @throws std::invalid_argument naming a chosen one that is not among those known.
+void requireKnown(const std::vector<std::string>& chosen, const std::vector<std::string>& known,
+                  const std::string& whose);
+
 /// All settings that are tried: each knob's values with the others at the base's, those that go
 /// with the level on every level. The base itself is a trial of the level.
 /// @param knobs  some of knobsOf.
