@@ -345,6 +345,8 @@ void addIdentify(CLI::App& program) {
       return identificationPage(model, isField ? field : nullptr, run);
     });
     if (options->isChosen) printTried(model);
+    if (isField && options->field.empty())
+      printRow("field", "taken but not written: name a file by --field");
     printModel(model, options->measurements);
     if (isField) printField(model, field);
     printWarnings(model);

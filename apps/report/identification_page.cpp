@@ -156,6 +156,21 @@ std::string fit(vtkPolyData* model, const MeasuredData& data, const RunDescripti
          outlierTable(data, isPolydata ? "tuple" : "line");
 }
 
+/// What was chosen among.
+std::string triedTable(vtkPolyData* model) {
+  const std::vector<std::string> names = fieldStrings(model, "TriedModels");
+  if (names.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double error = fieldComponentAt(model, "TriedHoldOutErrors", i);
+    rows.push_back({html::escaped(names[i]), std::isnan(error) ? "none" : percent(error)});
+  }
+  return "<p>The simplest was taken that predicts probes left out about as well as any, by the "
+         "same "
+         "displacements of all:</p>\n" +
+         html::table({"model", "error"}, rows);
+}
+
 std::string heldOut(vtkPolyData* model, const MeasuredData& data, const RunDescription& run) {
   const double error = fieldNumber(model, "HoldOutError", -1),
                prior = fieldNumber(model, "PriorHoldOutError", -1);
@@ -166,7 +181,7 @@ std::string heldOut(vtkPolyData* model, const MeasuredData& data, const RunDescr
           ", each predicted by what was found from the others: off by <b>" + percent(error) +
           "</b> of the displacements, noise and all";
   if (prior >= 0) text += "; by the prior with one factor it is " + percent(prior);
-  return text + ".</p>\n";
+  return text + ".</p>\n" + triedTable(model);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cmath>
+#include <Eigen/Geometry>
 #include <filesystem>
 
 #include "report/fit_plots.h"
@@ -49,6 +51,18 @@ std::string contactTable(vtkPolyData* model) {
                      rows);
 }
 
+/// A view turned to the side: of a force towards the eye or away from it no arrow would be seen.
+Eigen::Vector3d aside(const Eigen::Vector3d& towards, const Eigen::Vector3d& force) {
+  constexpr double kTurn = 0.6;  // rad
+  const Eigen::Vector3d level = force.cross(Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d axis =
+      (level.norm() > 0.1 * force.norm() ? force.cross(level) : Eigen::Vector3d::UnitX())
+          .normalized();
+  const Eigen::Vector3d one = Eigen::AngleAxisd(kTurn, axis) * towards,
+                        other = Eigen::AngleAxisd(-kTurn, axis) * towards;
+  return std::abs(one.dot(force)) < std::abs(other.dot(force)) ? one : other;
+}
+
 /// Pressures with the forces, and their deviations, from where the strongest contacts are seen.
 std::string pressurePicture(vtkPolyData* model) {
   View pressure{model, "recovered pressure", "ContactPressure", "pressure\n(Pa)", false, {}};
@@ -58,16 +72,18 @@ std::string pressurePicture(vtkPolyData* model) {
   double strongest = 0;
   for (vtkIdType c = 0; c < contactCount(model); ++c)
     strongest = std::max(strongest, vectorAt(model, "ContactForce", c).norm());
-  Eigen::Vector3d towards(0.5, -0.3, 0.5);  // arrows that point at the eye are none
+  Eigen::Vector3d towards(0, 0, 0), largest(0, 0, 0);
   for (vtkIdType c = 0; c < contactCount(model); ++c) {
     const Eigen::Vector3d force = vectorAt(model, "ContactForce", c);
     const double share = force.norm() / strongest;
     const PlaceOnSurface at = places.at(vectorAt(model, "ContactCentre", c));
     towards += share * at.normal;
+    if (share == 1) largest = force;
     Glyph arrow = forceArrow(at, force, share, places.diagonal());
     arrow.label = std::to_string(c + 1);
     pressure.glyphs.push_back(arrow);
   }
+  towards = aside(towards, largest);
   const Picture picture{{pressure, deviation}, {towards.x(), towards.y(), towards.z()}};
   return figure(drawn(picture, "recovered pressures"),
                 "The pressures that explain the displacements, with the forces of the contacts, "

@@ -188,7 +188,8 @@ def identify_best(surface, measurements, *, poisson=None, poisson_range=None, fi
 
     From the most constrained on: of one material, as `identify`; with method="fem" of stiffness that
     varies inside, as `identify_field`; and the first one's model corrected, as `correct`. Taken is the
-    first whose error under probes left out is within a twentieth of the least.
+    first whose error under probes left out is within a twentieth of the least, or larger by less than the
+    standard error of the difference over probes.
 
     Parameters
     ----------

@@ -89,6 +89,19 @@ TEST(MeasurementFile, NamesMayBeInCapitals) {
   EXPECT_EQ(m.displacements[0].displacement.x(), 1e-3);
 }
 
+// As spreadsheets save tables; several tabs in a row only align.
+TEST(MeasurementFile, GapsAreEmptyBetweenTabs) {
+  const Measurements gaps = read(
+      "probe\tcontact_vertex\tforce_x\tforce_y\tforce_z\tvertex\tu_x\tu_y\tu_z\n"
+      "1\t0\t0\t0\t1\t2\t1e-3\t\t\n");
+  ASSERT_EQ(gaps.valueCount(), 1);
+  EXPECT_EQ(gaps.displacements[0].displacement.x(), 1e-3);
+  EXPECT_EQ(read("probe\t\tcontact_vertex\tforce_x\tforce_y\tforce_z\tvertex\tu_x\tu_y\tu_z\n"
+                 "1\t0\t\t0\t0\t1\t2\t1e-3\t0\t0\n")
+                .valueCount(),
+            3);
+}
+
 // Between blanks nothing can be empty.
 TEST(MeasurementFile, GapsAreEmptyBetweenCommas) {
   EXPECT_TRUE(isRefused(
@@ -180,6 +193,16 @@ Measurements oneRow() {
   m.probes.push_back({"1", {-1, {0, 0, 1}}, 0.3, {0, 0, -1}});
   m.displacements.push_back({0, {-1, {1, 0, 0}}, {0, 0, 1e-3}, {0, 0, 0}, 2});
   return m;
+}
+
+TEST(MeasurementFile, AMissingDeviationIsSaid) {
+  EXPECT_TRUE(isRefused(
+      [] {
+        read(
+            "probe,contact_vertex,force_x,force_y,force_z,vertex,u_x,u_y,u_z,sd\n"
+            "1,0,0,0,1,2,0,0,1e-3,\n");
+      },
+      "line 2: the standard deviation is missing: give all"));
 }
 
 TEST(Measurements, PlacesOffTheSurfaceTellTheirUnit) {

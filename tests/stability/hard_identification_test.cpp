@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "identification/registration.h"
@@ -108,6 +110,41 @@ TEST(HardIdentification, ManyOutliers) {
                              "a fit between two truths, said to be good");
   here.expectAtMost("error of E", errorOf(result), 0.02);
   here.expectSaid(result.warnings.empty() ? "" : result.warnings.back(), "contradict the rest");
+}
+
+/// Displacements from the largest on.
+std::vector<int> bySize(const Measurements& m) {
+  std::vector<int> order(m.displacements.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    return m.displacements[i].displacement.norm() > m.displacements[j].displacement.norm();
+  });
+  return order;
+}
+
+TEST(HardIdentification, TheLargestDisplacementsAreWrong) {
+  const Body body;
+  const Measurements sound = body.measured(5, 50);
+  const std::vector<int> order = bySize(sound);
+  const auto errorWith = [&](int count, double factor) {
+    Measurements m = sound;
+    for (int i = 0; i < count; ++i) m.displacements[order[i]].displacement *= factor;
+    return errorOf(body.identify(m));
+  };
+  hard("the largest displacement of 250 times -40", "a refusal for the forces' sign")
+      .expectAtMost("error of E", errorWith(1, -40), 0.02);
+  hard("the largest 5 % of the displacements times -5", "a refusal for the forces' sign")
+      .expectAtMost("error of E", errorWith(12, -5), 0.02);
+}
+
+TEST(HardIdentification, RowsOfOtherProbesAndMarkers) {
+  const Body body;
+  Measurements m = body.measured(5, 50);
+  std::mt19937 random(4);
+  for (std::size_t i = m.displacements.size() - 1; i > 0; --i)
+    std::swap(m.displacements[i].displacement, m.displacements[random() % (i + 1)].displacement);
+  hard("displacements shuffled over the rows", "a modulus with a deviation")
+      .expectSaid(refusal([&] { body.identify(m); }), "check which rows are of which probe");
 }
 
 TEST(HardIdentification, NearlyIncompressible) {

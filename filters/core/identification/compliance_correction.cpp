@@ -20,7 +20,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kSmoothings[] = {10, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+constexpr double kMostSmoothing = 10, kLeastSmoothing = 1e-5;
+constexpr double kFinerSmoothings[] = {3, 1 / 3.0};  // of the best of those ten times apart
+constexpr double kWorse = 1.2;                       // an error over the least: no need to go on
+constexpr double kGross = 3;        // of what chance explains: outliers whatever the correction
 constexpr double kRounding = 1e-9;  // of the largest displacement: no residual to judge by
 constexpr int kTrimmings = 3, kHalvings = 6;
 constexpr double kSolved = 1e-3, kRoughlySolved = 3e-2;  // of the equations' right-hand side
@@ -34,18 +37,17 @@ Eigen::MatrixXd complianceOf(const GreensFunctions& greens, const std::vector<in
   return (compliance + compliance.transpose().eval()) / 2;
 }
 
-/// That of its leading modes: where it does most work on tractions of one size.
-Eigen::MatrixXd leadingPart(const Eigen::MatrixXd& compliance, const GreensFunctions& greens,
-                            const std::vector<int>& free, int modes) {
+/// The leading modes of a compliance, where it does most work on tractions of one size: the sum of
+/// the squares of all is the compliance.
+Eigen::MatrixXd leadingModes(const Eigen::MatrixXd& compliance, const GreensFunctions& greens,
+                             const std::vector<int>& free, int count) {
   Eigen::VectorXd roots(compliance.rows());
   for (std::size_t i = 0; i < free.size(); ++i)
     roots.segment<3>(3 * i).setConstant(std::sqrt(greens.vertexArea(free[i])));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(
       (roots.asDiagonal() * compliance * roots.asDiagonal()).eval());
-  const Eigen::MatrixXd leading =
-      roots.cwiseInverse().asDiagonal() * parts.eigenvectors().rightCols(modes) *
-      parts.eigenvalues().tail(modes).cwiseMax(0).cwiseSqrt().asDiagonal();
-  return leading * leading.transpose();
+  return roots.cwiseInverse().asDiagonal() * parts.eigenvectors().rightCols(count) *
+         parts.eigenvalues().tail(count).cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 /// The fit to a table, its smoothing chosen by probes left out, its outliers left out.
@@ -60,6 +62,7 @@ class CorrectionFit {
         unit_(table.weights().maxCoeff()) {}
 
   void run() {
+    if (options_.leaveOutOutliers) markGrossOutliers();
     smoothing = options_.smoothing > 0 ? options_.smoothing : chosenSmoothing();
     fit();
     for (int i = 0; options_.leaveOutOutliers && i < kTrimmings && markOutliers(); ++i) {
@@ -67,12 +70,13 @@ class CorrectionFit {
       fit();
     }
     if (options_.folds < 2) return;
-    holdOutError = heldOut(smoothing, true, 2);
-    priorHoldOutError = heldOut(0, true, 2);
+    held = heldOut(smoothing, kSolved);
+    priorHeld = heldOut(0, kSolved);
   }
 
-  double smoothing = 0, factor = 1, holdOutError = -1, priorHoldOutError = -1;
+  double smoothing = 0, factor = 1;
   Eigen::VectorXd pulls, residuals;
+  Eigen::VectorXd held, priorHeld;  // residuals of probes left out; none without folds
   std::vector<int> outliers;
 
  private:
@@ -96,40 +100,58 @@ class CorrectionFit {
     residuals = left - correction_.seen(pulls);
   }
 
-  /// Of probes left out in turn, over the displacements; of one probe, of markers.
+  /// The residuals of probes left out in turn; of one probe, of markers.
   /// @param smoothing  0 for the prior alone.
-  /// @param power      2 for the root mean square, 1 where outliers may be among them.
-  double heldOut(double smoothing, bool isFinal, int power) const {
+  /// @param tolerance  of the equations' right-hand side.
+  Eigen::VectorXd heldOut(double smoothing, double tolerance) const {
     const Eigen::VectorXd weights = this->weights();
     const int folds = table_.foldCount(options_.folds);
-    double error = 0, size = 0;
+    Eigen::VectorXd result = table_.measured();
     for (int fold = 0; fold < folds; ++fold) {
       const Eigen::VectorXd kept = table_.withoutFold(weights, fold, folds);
       if (kept.maxCoeff() == 0) continue;
-      const Eigen::VectorXd left = table_.measured() - factorBeside(smoothing, kept) * prior_;
-      Eigen::VectorXd wrong = left;
+      Eigen::VectorXd left = table_.measured() - factorBeside(smoothing, kept) * prior_;
       if (smoothing > 0)
-        wrong -= correction_.seen(
-            correction_.pulls(left, kept, smoothing, isFinal ? kSolved : kRoughlySolved));
-      const Eigen::ArrayXd held = (weights.array() > 0 && kept.array() == 0).cast<double>();
-      error += (held * wrong.array().abs().pow(power)).sum();
-      size += (held * table_.measured().array().abs().pow(power)).sum();
+        left -= correction_.seen(correction_.pulls(left, kept, smoothing, tolerance));
+      table_.setFold(left, fold, folds, result);
     }
-    return size > 0 ? std::pow(error / size, 1.0 / power) : -1;
+    return result;
   }
 
+  /// The error at probes left out, by absolute values, as outliers may be among them.
+  double errorWith(double smoothing) const {
+    try {
+      const Eigen::VectorXd counts = (weights().array() > 0).cast<double>();
+      return counts.dot(heldOut(smoothing, kRoughlySolved).cwiseAbs());
+    } catch (const TooLittleSmoothing&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
+  /// The best at probes left out.
   double chosenSmoothing() const {
-    double best = kSmoothings[0], least = std::numeric_limits<double>::infinity();
-    for (double candidate : kSmoothings) {
-      const double error = heldOut(candidate, false, 1);
+    double best = kMostSmoothing, least = std::numeric_limits<double>::infinity();
+    const auto isTooBad = [&](double candidate) {
+      const double error = errorWith(candidate);
       if (error < least) {
         least = error;
         best = candidate;
-      } else if (error > 1.5 * least) {
-        break;
       }
-    }
+      return error > kWorse * least;
+    };
+    for (double candidate = kMostSmoothing; candidate > kLeastSmoothing / 2; candidate /= 10)
+      if (isTooBad(candidate)) break;
+    const double coarse = best;
+    for (double finer : kFinerSmoothings) isTooBad(finer * coarse);
     return best;
+  }
+
+  /// Those that are wrong beyond what any correction is for.
+  void markGrossOutliers() {
+    const Eigen::VectorXd left =
+        table_.weights().cwiseProduct(table_.measured() - table_.robustFactorOf(prior_) * prior_);
+    const double scale = table_.medianDeviationOf(left);
+    if (scale > 0) outliers = table_.outliersOf(left / (kGross * scale));
   }
 
   /// How much of noise's variance residuals still have, the rest being taken for correction: a mean
@@ -200,8 +222,11 @@ void describe(const CorrectionFit& fitted, const MeasuredValues& table,
       {"factor on the prior's compliance", "", fitted.factor, 0, fitted.factor, fitted.factor});
   result.correlations = Eigen::MatrixXd::Identity(1, 1);
   table.describe(fitted.residuals, fitted.outliers, result);
-  result.holdOutError = fitted.holdOutError;
   const Eigen::VectorXd weights = table.weightsWithout(fitted.outliers);
+  if (fitted.held.size() > 0) {
+    result.holdOutError = table.leftBy(fitted.held, weights);
+    result.heldOutResiduals = table.byMarkers(fitted.held);
+  }
   result.noise =
       std::sqrt((weights.array() > 0).select(fitted.residuals.array().square(), 0).sum() /
                 std::max(1, result.valueCount));
@@ -250,9 +275,9 @@ CorrectedGreensFunctions correctCompliance(const GreensFunctions& prior, const E
     loads.middleRows<3>(3 * i) = forces.middleRows<3>(3 * free[i]);
   const MarkerRows markers(setup, free, prior.nodeCount());
   const Eigen::VectorXd seen = markers.seen(compliance * loads);
-  const ComplianceKernel correction(
-      options.modes > 0 ? leadingPart(compliance, prior, free, options.modes) : compliance, loads,
-      markers, progress);
+  const int modes = options.modes > 0 ? options.modes : static_cast<int>(compliance.rows());
+  const ComplianceKernel correction(leadingModes(compliance, prior, free, modes), loads, markers,
+                                    progress);
   CorrectionFit fitted(correction, table, seen, options);
   fitted.run();
 
@@ -280,13 +305,15 @@ CorrectedGreensFunctions correctCompliance(const GreensFunctions& prior, const E
                                                       info.vertexAreas, info.columnNodes, true);
   info.diagnostics.rockingCompliance = rockingCompliance(*result.greens.view(), model.mesh());
   result.smoothing = fitted.smoothing;
-  result.priorHoldOutError = fitted.priorHoldOutError;
   describe(fitted, table, result.fit);
+  if (fitted.priorHeld.size() > 0)
+    result.priorHoldOutError =
+        table.leftBy(fitted.priorHeld, table.weightsWithout(fitted.outliers));
   if (result.share < 1)
     result.fit.warnings.push_back(
         sentence("only ", shortly(100 * result.share),
                  " % of the correction was taken: more would not be positive definite"));
-  if (fitted.holdOutError > fitted.priorHoldOutError && fitted.priorHoldOutError > 0)
+  if (result.fit.holdOutError > result.priorHoldOutError && result.priorHoldOutError > 0)
     result.fit.warnings.push_back(
         "probes left out are predicted no better than by the prior with one factor: the correction "
         "is of noise, or probes are too few");

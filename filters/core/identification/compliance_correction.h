@@ -37,13 +37,14 @@ struct CorrectedGreensFunctions {
 /// Corrects the compliance C of the free vertices by measured displacements, without any model of
 /// the inside:
 ///     C = c C_0 + B X B^T
-/// with the prior C_0, a factor c, C_0 = B B^T or that of its leading modes, and of all symmetric X
-/// the one that is most probable if its entries are independent normal: a Gaussian process on pairs
-/// of places, whose covariance are products of elastic responses (Rasmussen and Williams, Gaussian
-/// Processes for Machine Learning, 2006, 2.2 and 9.1). What was measured is kept but for noise, its
-/// mirror image by reciprocity likewise; between and beyond, C goes over to c C_0 smoothly. The
-/// factor is the most probable one beside X, by generalised least squares (2.7 there). The
-/// equations, one a measured component, are solved by conjugate gradients.
+/// with the prior C_0, a factor c, the modes B of C_0 = B B^T or the leading ones of them, and of
+/// all symmetric X the one that is most probable if its entries are independent normal, those on
+/// its diagonal, each mode's own factor, of a larger variance (ComplianceKernel): a Gaussian
+/// process on pairs of places, whose covariance are products of elastic responses (Rasmussen and
+/// Williams, Gaussian Processes for Machine Learning, 2006, 2.2 and 9.1). What was measured is kept
+/// but for noise, its mirror image by reciprocity likewise; between and beyond, C goes over to c
+/// C_0 smoothly. The factor is the most probable one beside X, by generalised least squares (2.7
+/// there). The equations, one a measured component, are solved by conjugate gradients.
 ///
 /// Reactions of the support to forces stay the prior's, which are in balance with the forces.
 /// @param prior  reciprocal, with the columns of all free vertices.

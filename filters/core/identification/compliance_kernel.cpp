@@ -9,7 +9,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kMostSteps = 200;
+constexpr int kMostSteps = 500;
+constexpr double kOwnFactors = 10;  // variance of a mode's own factor over that of two modes' entry
 
 }  // namespace
 
@@ -43,18 +44,20 @@ Eigen::MatrixXd MarkerRows::spread(const Eigen::VectorXd& values) const {
   return result;
 }
 
-ComplianceKernel::ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads,
+ComplianceKernel::ComplianceKernel(Eigen::MatrixXd modes, const Eigen::MatrixXd& loads,
                                    const MarkerRows& markers, const Progress& progress)
-    : kernel_(std::move(kernel)),
+    : modes_(std::move(modes)),
       markers_(markers),
       progress_(progress),
-      loaded_(kernel_ * loads),
-      work_(loads.transpose() * loaded_),
-      unit_(kernel_.diagonal().mean() * work_.diagonal().mean() / 2) {}
+      loaded_(modes_.transpose() * loads),
+      work_(loaded_.transpose() * loaded_),
+      unit_(modes_.rowwise().squaredNorm().mean() * work_.diagonal().mean() / 2) {}
 
 Eigen::VectorXd ComplianceKernel::seen(const Eigen::VectorXd& pulls) const {
-  const Eigen::MatrixXd places = markers_.spread(pulls);
-  return markers_.seen((kernel_ * places * work_ + loaded_ * (places.transpose() * loaded_)) / 2);
+  const Eigen::MatrixXd pulled = modes_.transpose() * markers_.spread(pulls);
+  const Eigen::VectorXd own = kOwnFactors * pulled.cwiseProduct(loaded_).rowwise().sum();
+  return markers_.seen(modes_ * ((pulled * work_ + loaded_ * (pulled.transpose() * loaded_)) / 2 +
+                                 own.asDiagonal() * loaded_));
 }
 
 Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
@@ -66,7 +69,8 @@ Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
   Eigen::VectorXd x = Eigen::VectorXd::Zero(residuals.size()),
                   left = weights.cwiseProduct(residuals), along = left;
   const double enough = tolerance * left.norm();
-  for (int step = 0; step < kMostSteps && left.norm() > enough; ++step) {
+  for (int step = 0; left.norm() > enough; ++step) {
+    if (step == kMostSteps) throw TooLittleSmoothing();
     progress_.report(0.5, "correct");
     const Eigen::VectorXd image = times(along);
     const double before = left.squaredNorm(), length = before / along.dot(image);
@@ -78,8 +82,11 @@ Eigen::VectorXd ComplianceKernel::pulls(const Eigen::VectorXd& residuals,
 }
 
 Eigen::MatrixXd ComplianceKernel::matrix(const Eigen::VectorXd& pulls) const {
-  const Eigen::MatrixXd half = kernel_ * markers_.spread(pulls) * loaded_.transpose() / 2;
-  return half + half.transpose();
+  const Eigen::MatrixXd pulled = modes_.transpose() * markers_.spread(pulls),
+                        half = pulled * loaded_.transpose() / 2;
+  Eigen::MatrixXd entries = half + half.transpose();
+  entries.diagonal() *= 1 + kOwnFactors;
+  return modes_ * entries * modes_.transpose();
 }
 
 }  // namespace palpate

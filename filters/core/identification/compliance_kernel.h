@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stdexcept>
 #include <vector>
 
 #include "identification/measured_response.h"
@@ -36,16 +37,24 @@ class MarkerRows {
   Eigen::Index freeCount_;
 };
 
-/// Corrections of a compliance,
-///     (K A L^T K + K L A^T K) / 2,
-/// with the kernel K, the probes' loads L, and A, the pulls at the markers spread over the surface:
-/// those of all symmetric ones that explain measurements with least effort.
+/// Equations whose smoothing is too small for conjugate gradients.
+class TooLittleSmoothing : public std::runtime_error {
+ public:
+  TooLittleSmoothing()
+      : std::runtime_error("the correction's equations did not converge: take more smoothing") {}
+};
+
+/// Corrections B X B^T of a compliance by its modes B, with
+///     X = S + kOwnFactors diag(S),  S = (B^T A L^T B + B^T L A^T B) / 2,
+/// the probes' loads L, and A, the pulls at the markers spread over the surface: those of all
+/// symmetric ones that explain measurements with least effort, where each mode's own factor is
+/// changed with less of it than how modes act on each other.
 class ComplianceKernel {
  public:
-  /// @param kernel  3 #free squared, symmetric and positive semidefinite, m/N.
+  /// @param modes   3 #free by #modes, (m/N)^1/2.
   /// @param loads   3 #free by #probes, N.
   /// @param markers  outlives this.
-  ComplianceKernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& loads, const MarkerRows& markers,
+  ComplianceKernel(Eigen::MatrixXd modes, const Eigen::MatrixXd& loads, const MarkerRows& markers,
                    const Progress& progress);
 
   /// What pulls explain at the markers.
@@ -55,6 +64,7 @@ class ComplianceKernel {
   /// @param weights    0 where left out.
   /// @param smoothing  noise over what is corrected, variances.
   /// @param tolerance  of the equations' right-hand side.
+  /// @throws TooLittleSmoothing if they do not come that near within hundreds of steps.
   Eigen::VectorXd pulls(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights,
                         double smoothing, double tolerance) const;
 
@@ -62,10 +72,10 @@ class ComplianceKernel {
   Eigen::MatrixXd matrix(const Eigen::VectorXd& pulls) const;
 
  private:
-  Eigen::MatrixXd kernel_;
+  Eigen::MatrixXd modes_;
   const MarkerRows& markers_;
   Progress progress_;
-  Eigen::MatrixXd loaded_, work_;  // K L and L^T K L
+  Eigen::MatrixXd loaded_, work_;  // B^T L and its square, L^T B B^T L
   double unit_;                    // what a pull explains of itself, in the mean
 };
 

@@ -93,7 +93,7 @@ MaterialIdentification MaterialIdentifier::identify(const Measurements& measurem
   warnOfParameters(result);
   fit.describe(result);
   warnOfInterpolation(measurements, result);
-  result.holdOutError = fit.holdOutError(parts_->options.folds);
+  fit.crossValidate(parts_->options.folds, result);
   progress.report(1, "done");
   return result;
 }

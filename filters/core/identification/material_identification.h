@@ -67,6 +67,7 @@ struct MaterialIdentification {
   double misfit = -1;  ///< residuals over the deviations given, root mean square; -1: not given
   double fitError = 0;  ///< residuals over displacements that count, root mean squares
   double holdOutError = -1;  ///< of displacements under probes left out, relative; -1: no folds
+  Eigen::Matrix3Xd heldOutResiduals;  ///< of probes left out, outliers' too; empty: no folds
   double interpolationError = 0;
   int samples = 0;  ///< Green's functions that were computed
   std::vector<std::string> warnings;

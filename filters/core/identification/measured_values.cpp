@@ -16,6 +16,31 @@ namespace {
 
 constexpr double kFalseOutliers = 0.01;  // expected in a table without any
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMost = 0.7;                       // of the displacements under a probe
+constexpr double kManyOutliers = 0.2;               // of the displacements
+constexpr double kNothing = 0.97, kDoubtful = 0.5;  // residuals over displacements
+
+constexpr const char* kCheck =
+    "check which rows are of which probe and marker, signs, frames and units, or identify what "
+    "differs from the model";
+
+void warnOfFit(MaterialIdentification& result) {
+  const double explained = std::max(0.0, 100 * (1 - std::pow(result.fitError, 2)));
+  if (result.fitError > kNothing)
+    refuse(
+        "the displacements that were measured are not this body's under these forces: the model "
+        "that fits best explains ",
+        shortly(explained), " % of their squares; ", kCheck);
+  if (result.fitError > kDoubtful)
+    result.warnings.push_back(sentence("the model explains only ", shortly(explained),
+                                       " % of the squares of the displacements: ", kCheck));
+  const double share =
+      double(result.outliers.size()) / static_cast<double>(result.residuals.cols());
+  if (share > kManyOutliers)
+    result.warnings.push_back(
+        sentence(shortly(100 * share),
+                 " % of the displacements contradict the rest: the table or the model is wrong"));
+}
 
 }  // namespace
 
@@ -41,16 +66,43 @@ Eigen::VectorXd MeasuredValues::weightsWithout(const std::vector<int>& outliers)
 double MeasuredValues::factorOf(const Eigen::VectorXd& displacements,
                                 const Eigen::VectorXd& weights) const {
   const Eigen::ArrayXd squares = weights.array().square();
-  const double along = (squares * displacements.array() * measured_.array()).sum(),
-               size = (squares * displacements.array().square()).sum();
-  if (!(size > 0)) refuse("nothing moves at the markers, whatever the material");
-  if ((squares * measured_.array().square()).sum() == 0)
-    refuse("nothing moved: no displacement is other than zero");
-  if (!(along > 0))
-    refuse(
-        "the displacements are against the forces, which no material explains: check the signs "
-        "of the forces, which are those on the body");
-  return along / size;
+  return (squares * displacements.array() * measured_.array()).sum() /
+         (squares * displacements.array().square()).sum();
+}
+
+double MeasuredValues::robustFactorOf(const Eigen::VectorXd& displacements) const {
+  std::vector<Share> factors;
+  std::vector<std::vector<Share>> ofProbes(table_.probes.size());
+  for (int i = 0; i < markerCount(); ++i) {
+    const Eigen::Vector3d weights = weights_.segment<3>(3 * i),
+                          expected = weights.cwiseProduct(displacements.segment<3>(3 * i)),
+                          seen = weights.cwiseProduct(measured_.segment<3>(3 * i));
+    const double size = expected.norm();
+    if (size == 0) continue;
+    factors.push_back({expected.dot(seen) / (size * size), size});
+    ofProbes[table_.displacements[i].probe].push_back(factors.back());
+  }
+  if (factors.empty()) refuse("nothing moves at the markers, whatever the material");
+  if (measured_.isZero(0)) refuse("nothing moved: no displacement is other than zero");
+  requireAlongForces(ofProbes);
+  const double factor = weightedQuantile(std::move(factors), 0.5);
+  if (!(factor > 0))
+    refuse("displacements are as often against the forces as along them: ", kCheck);
+  return factor;
+}
+
+/// Of most markers under most probes.
+void MeasuredValues::requireAlongForces(const std::vector<std::vector<Share>>& ofProbes) const {
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < ofProbes.size(); ++p)
+    if (!ofProbes[p].empty() && weightedQuantile(ofProbes[p], kMost) < 0) {
+      names += (count++ > 0 ? ", " : "") + table_.probes[p].name;
+    }
+  if (static_cast<double>(count) > kManyOutliers * static_cast<double>(ofProbes.size()))
+    refuse("the displacements are against the forces, which no material explains, under ", count,
+           " of ", ofProbes.size(), " probes (", names,
+           "): check the signs of the forces, which are those on the body");
 }
 
 double MeasuredValues::medianDeviationOf(const Eigen::VectorXd& residuals) const {
@@ -83,6 +135,16 @@ Eigen::VectorXd MeasuredValues::withoutFold(const Eigen::VectorXd& weights, int 
   return kept;
 }
 
+void MeasuredValues::setFold(const Eigen::VectorXd& residuals, int fold, int folds,
+                             Eigen::VectorXd& held) const {
+  const Eigen::VectorXd kept = withoutFold(weights_, fold, folds);
+  held = (kept.array() == 0 && weights_.array() > 0).select(residuals, held);
+}
+
+Eigen::Matrix3Xd MeasuredValues::byMarkers(const Eigen::VectorXd& values) const {
+  return (weights_.array() > 0).select(values, kNotMeasured).reshaped(3, markerCount());
+}
+
 double MeasuredValues::leftBy(const Eigen::VectorXd& residuals,
                               const Eigen::VectorXd& weights) const {
   const Eigen::ArrayXd counts = (weights.array() > 0).cast<double>();
@@ -94,8 +156,7 @@ void MeasuredValues::describe(const Eigen::VectorXd& residuals, const std::vecto
                               MaterialIdentification& result) const {
   const int probes = static_cast<int>(table_.probes.size());
   const Eigen::VectorXd weights = weightsWithout(outliers);
-  result.residuals =
-      (weights_.array() > 0).select(residuals, kNotMeasured).reshaped(3, markerCount());
+  result.residuals = byMarkers(residuals);
   result.outliers = outliers;
   result.valueCount = static_cast<int>((weights.array() > 0).count());
   for (const Probe& probe : table_.probes) result.probes.push_back({probe.name});
@@ -117,6 +178,7 @@ void MeasuredValues::describe(const Eigen::VectorXd& residuals, const std::vecto
     result.probes[p].residual = std::sqrt(squares[p] / values[p]);
     result.probes[p].relative = sizes[p] > 0 ? std::sqrt(squares[p] / sizes[p]) : 0;
   }
+  warnOfFit(result);
 }
 
 }  // namespace palpate

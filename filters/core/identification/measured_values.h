@@ -8,6 +8,7 @@
 
 #include "identification/material_identification.h"
 #include "identification/measurements.h"
+#include "identification/robust_statistics.h"
 
 namespace palpate {
 
@@ -27,10 +28,15 @@ class MeasuredValues {
   /// @param outliers  markers.
   Eigen::VectorXd weightsWithout(const std::vector<int>& outliers) const;
 
-  /// The factor that brings displacements nearest to those measured.
+  /// The factor that brings displacements nearest to those measured, by least squares.
   /// @param displacements  3 #markers.
-  /// @throws std::invalid_argument if nothing moves, or all against the forces.
   double factorOf(const Eigen::VectorXd& displacements, const Eigen::VectorXd& weights) const;
+  /// The same by least absolute deviations along the displacements: nearly half of what was
+  /// measured may be anything.
+  /// @return above 0.
+  /// @throws std::invalid_argument if nothing moves, or against the forces under a fifth of the
+  /// probes.
+  double robustFactorOf(const Eigen::VectorXd& displacements) const;
 
   /// The standard deviation of weighted residuals by their median.
   double medianDeviationOf(const Eigen::VectorXd& residuals) const;
@@ -44,16 +50,24 @@ class MeasuredValues {
   int foldCount(int wanted) const;
   /// Weights, but 0 in a fold.
   Eigen::VectorXd withoutFold(const Eigen::VectorXd& weights, int fold, int folds) const;
+  /// What residuals have in a fold, beside what `held` has elsewhere.
+  void setFold(const Eigen::VectorXd& residuals, int fold, int folds, Eigen::VectorXd& held) const;
+  /// Values by component, NaN where not measured, 3 by #markers.
+  Eigen::Matrix3Xd byMarkers(const Eigen::VectorXd& values) const;
 
   /// Residuals over displacements where weights are not 0, root mean squares.
   double leftBy(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) const;
 
-  /// Sets residuals, outliers, the number of values that count, and probes.
+  /// Sets residuals, outliers, the number of values that count, and probes; warns of what is
+  /// doubtful in these.
   /// @param residuals  measured less predicted, 3 #markers, m.
+  /// @throws std::invalid_argument if displacements are explained no better than by no motion.
   void describe(const Eigen::VectorXd& residuals, const std::vector<int>& outliers,
                 MaterialIdentification& result) const;
 
  private:
+  void requireAlongForces(const std::vector<std::vector<Share>>& ofProbes) const;
+
   const Measurements& table_;
   Eigen::VectorXd measured_, weights_;
 };

@@ -119,6 +119,9 @@ void Table::readNames() {
   std::fill(std::begin(place_), std::end(place_), -1);
   if (!lines_.nextWith('#')) lines_.refuse("there is no line of names");
   separator_ = separatorOf(lines_.line());
+  // Single tabs leave room for gaps, several are but blanks.
+  if (separator_ == ' ' && wordsOf(lines_.line(), '\t').size() == wordsOf(lines_.line()).size())
+    separator_ = '\t';
   std::vector<std::string_view> names = wordsOf(lines_.line(), separator_);
   for (std::string_view& name : names) name = unquoted(name);
   columnCount_ = names.size();
@@ -207,7 +210,8 @@ Eigen::Vector3d Table::deviation() const {
 void Table::readLine() {
   words_ = wordsOf(lines_.line(), separator_);
   if (words_.size() != columnCount_)
-    lines_.refuse("there are ", words_.size(), " words, but ", columnCount_, " columns");
+    lines_.refuse("there are ", words_.size(), " words, but ", columnCount_, " columns",
+                  separator_ == ' ' ? ": separate columns by commas where words are missing" : "");
   if (has(ProbeName) && word(ProbeName).empty()) lines_.refuse("the probe's name is missing");
   const auto known = probes_.find(word(ProbeName));
   const bool isNew = known == probes_.end();
@@ -224,8 +228,12 @@ void Table::readLine() {
   measured.marker = placeBy(Vertex, X, "marker");
   for (int c = 0; c < 3; ++c) measured.displacement[c] = displacement(Column(Ux + c));
   measured.deviation = deviation();
-  if ((has(Sd) || has(SdX)) && !(measured.deviation.minCoeff() > 0))
-    lines_.refuse("a standard deviation must be positive");
+  if (has(Sd) || has(SdX)) {
+    if (word(has(Sd) ? Sd : SdX).empty())
+      lines_.refuse("the standard deviation is missing: give all, or leave out the columns");
+    if (!(measured.deviation.minCoeff() > 0))
+      lines_.refuse("a standard deviation must be positive");
+  }
   measured.row = static_cast<int>(lines_.lineNumber());
   result_.displacements.push_back(measured);
 }

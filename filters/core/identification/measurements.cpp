@@ -83,7 +83,10 @@ class Locator {
   Locator(const SurfaceMesh& mesh, double tolerance)
       : mesh_(mesh),
         locator_(std::make_shared<SurfaceMesh>(mesh.points(), mesh.triangles(), mesh.rims())),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance) {
+    if (!(tolerance >= 0))
+      refuse("the tolerance of places must not be negative, but is ", tolerance, " m");
+  }
 
   SurfacePoint at(const RestPlace& place, const std::string& name) const {
     if (place.vertex >= mesh_.vertexCount())

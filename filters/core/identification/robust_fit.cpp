@@ -36,7 +36,7 @@ RobustFit::RobustFit(DisplacementModel model, const Measurements& measurements, 
 }
 
 double RobustFit::modulusBy(const Eigen::VectorXd& unit) const {
-  return 1 / table_.factorOf(unit, table_.weights());
+  return 1 / table_.robustFactorOf(unit);
 }
 
 /// What is known beforehand are residuals behind those of the markers.
@@ -174,11 +174,6 @@ void RobustFit::describe(MaterialIdentification& result) const {
         sentence("residuals are ", shortly(result.misfit),
                  " times the standard deviations given, by which all deviations here are "
                  "enlarged: the model differs from the body, or the noise was underrated"));
-  const double share = double(result.outliers.size()) / table_.markerCount();
-  if (share > 0.2)
-    result.warnings.push_back(
-        sentence(shortly(100 * share),
-                 " % of the displacements contradict the rest: the table or the model is wrong"));
 }
 
 /// Of the unknowns by what is kept; none where that does not lead to any.
@@ -212,25 +207,24 @@ double RobustFit::leftByMultipleOf(const Eigen::VectorXd& displacements) const {
   return table_.leftBy(table_.measured() - factor * displacements, weights);
 }
 
-double RobustFit::holdOutError(int wanted) const {
+void RobustFit::crossValidate(int wanted, MaterialIdentification& result) const {
   const int folds = table_.foldCount(wanted);
-  if (folds < 2) return -1;
+  if (folds < 2) return;
   const Eigen::VectorXd weights = inlierWeights();
   Eigen::MatrixXd jacobian;
   if (model_.isDear) model_.displacements(unknowns_, &jacobian);
-  double error = 0, size = 0;
+  Eigen::VectorXd held = Eigen::VectorXd::Zero(weights.size());
   for (int fold = 0; fold < folds; ++fold) {
     progress_.report(0.6 + 0.4 * fold / folds, "cross-validate");
     const Eigen::VectorXd kept = table_.withoutFold(weights, fold, folds);
-    if (countOf(kept) <= unknownCount_) return -1;
+    if (countOf(kept) <= unknownCount_) return;
     const Eigen::VectorXd residuals =
         model_.isDear ? linearResidualsWithout(kept, jacobian) : residualsWithout(kept);
-    if (residuals.size() == 0) return -1;
-    const Eigen::ArrayXd held = (weights.array() > 0 && kept.array() == 0).cast<double>();
-    error += (held * residuals.array()).square().sum();
-    size += (held * table_.measured().array()).square().sum();
+    if (residuals.size() == 0) return;
+    table_.setFold(residuals, fold, folds, held);
   }
-  return size > 0 ? std::sqrt(error / size) : -1;
+  result.holdOutError = table_.leftBy(held, weights);
+  result.heldOutResiduals = table_.byMarkers(held);
 }
 
 }  // namespace palpate

@@ -41,10 +41,10 @@ class RobustFit {
   RobustFit(DisplacementModel model, const Measurements& measurements, RobustLoss loss,
             const Progress& progress);
 
-  /// By 1 / E the linear least squares' solution.
+  /// By 1 / E a robust linear fit.
   /// @param unit  displacements of Young's modulus 1 Pa, 3 #markers.
   /// @return E, Pa.
-  /// @throws std::invalid_argument if nothing moves, or all against the forces.
+  /// @throws std::invalid_argument if nothing moves, or most against the forces.
   double modulusBy(const Eigen::VectorXd& unit) const;
 
   /// @throws as solveLeastSquares, and as the constructor.
@@ -58,15 +58,16 @@ class RobustFit {
   double determinedCount() const;
 
   /// Sets residuals, outliers, probes, noise and misfit, with what is doubtful in these.
+  /// @throws std::invalid_argument if displacements are explained no better than by no motion.
   void describe(MaterialIdentification& result) const;
 
   /// What the best multiple of displacements leaves, without outliers: over those measured, root
   /// mean squares.
   double leftByMultipleOf(const Eigen::VectorXd& displacements) const;
 
-  /// The relative error of displacements under probes that the unknowns were not identified from;
-  /// of one probe, of markers. -1 where that cannot be told.
-  double holdOutError(int folds) const;
+  /// Sets what is wrong under probes that the unknowns were not identified from; of one probe, at
+  /// markers. Nothing where that cannot be told.
+  void crossValidate(int folds, MaterialIdentification& result) const;
 
  private:
   Eigen::VectorXd residualsAt(const Eigen::VectorXd& unknowns) const {

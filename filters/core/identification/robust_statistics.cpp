@@ -27,4 +27,13 @@ double medianDeviation(std::vector<double> sizes) {
   return kNormal * *middle;
 }
 
+double weightedQuantile(std::vector<Share> shares, double below) {
+  std::sort(shares.begin(), shares.end(), [](auto& a, auto& b) { return a.value < b.value; });
+  double left = 0;
+  for (const Share& share : shares) left += below * share.weight;
+  for (const Share& share : shares)
+    if ((left -= share.weight) <= 0) return share.value;
+  return shares.back().value;
+}
+
 }  // namespace palpate

@@ -15,4 +15,13 @@ double chiSquaredOf(double probability);
 /// @param sizes  at least one.
 double medianDeviation(std::vector<double> sizes);
 
+/// A value, and how much of all it is.
+struct Share {
+  double value, weight;
+};
+
+/// The value that has so much of the weight below it.
+/// @param shares  at least one.
+double weightedQuantile(std::vector<Share> shares, double below);
+
 }  // namespace palpate

@@ -253,7 +253,7 @@ StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::
     result.fit.warnings.push_back(
         sentence("somewhere ln E differs from its mean by ", shortly(largest),
                  " times the standard deviation that was expected beforehand: raise it"));
-  result.fit.holdOutError = fit.holdOutError(options.folds);
+  fit.crossValidate(options.folds, result.fit);
   progress.report(1, "done");
   return result;
 }

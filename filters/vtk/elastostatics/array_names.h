@@ -189,6 +189,7 @@ constexpr const char* ProbeForce = "ProbeForce";   // 3, on the body, N
 
 // Field data of vtkGreensFunctionIdentification, besides the table in the frame of the surface.
 constexpr const char* MeasurementResidual = "MeasurementResidual"; // 3, measured less predicted, m
+constexpr const char* MeasurementHeldOutResidual = "MeasurementHeldOutResidual"; // the same, left out
 constexpr const char* MeasurementOutlier = "MeasurementOutlier";   // uint8, 1 left out
 constexpr const char* ProbeResidual = "ProbeResidual"; // root mean square of a component, m
 constexpr const char* ProbeRelativeResidual = "ProbeRelativeResidual"; // over the displacements
@@ -213,7 +214,7 @@ constexpr const char* RegistrationDistance = "RegistrationDistance"; // places f
 constexpr const char* PriorHoldOutError = "PriorHoldOutError"; // of vtkComplianceCorrection: its prior's
 constexpr const char* CorrectionSmoothing = "CorrectionSmoothing"; // noise over correction, variances
 constexpr const char* DeterminedUnknowns = "DeterminedUnknowns"; // of a field's: by measurements
-// Of vtkIdentificationByCrossValidation: kinds of models and their HoldOutError, NaN for none.
+// Of vtkIdentificationByCrossValidation: kinds of models and their errors under probes left out, NaN for none.
 constexpr const char* TriedModels = "TriedModels";
 constexpr const char* TriedHoldOutErrors = "TriedHoldOutErrors";
 constexpr const char* FieldDeviation = "FieldDeviation"; // that was expected of a field's ln E
@@ -254,7 +255,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,
   IntegrationError, SolverError, StorageError, ErrorLoadLength, ToleranceSteps, PeakBytes, StageSeconds,
-  StageNames, Warnings, MeasurementResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual,
+  StageNames, Warnings, MeasurementResidual, MeasurementHeldOutResidual, MeasurementOutlier, ProbeResidual, ProbeRelativeResidual,
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, FitError, TriedModels, TriedHoldOutErrors, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,

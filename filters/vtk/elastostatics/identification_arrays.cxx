@@ -42,6 +42,10 @@ void setIdentification(
 {
   setMeasurements(surface, measurements);
   setVectorsWithGaps(surface, arrays::MeasurementResidual, result.residuals);
+  if (result.heldOutResiduals.size() > 0)
+  {
+    setVectorsWithGaps(surface, arrays::MeasurementHeldOutResidual, result.heldOutResiduals);
+  }
   vtkNew<vtkUnsignedCharArray> outliers;
   outliers->SetName(arrays::MeasurementOutlier);
   outliers->SetNumberOfTuples(result.residuals.cols());

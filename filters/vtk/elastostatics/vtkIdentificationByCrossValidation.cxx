@@ -5,12 +5,14 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "identification/model_choice.h"
 #include "measurement_arrays.h"
 #include "progress.h"
 #include "sentence.h"
 #include "vtkComplianceCorrection.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -20,9 +22,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,8 +31,6 @@ vtkStandardNewMacro(vtkIdentificationByCrossValidation);
 
 namespace
 {
-constexpr double AsGood = 1.05; // an error over the least
-
 /// A kind of model, and how to identify it.
 struct Kind
 {
@@ -40,11 +38,27 @@ struct Kind
   std::function<void(vtkPolyData* output)> Identify;
 };
 
-double holdOutErrorOf(vtkPolyData* model)
+/// What probes left out tell of a model; nothing of one that was not identified.
+palpate::TriedModel triedModelOf(vtkPolyData* model)
 {
-  vtkDataArray* array = model->GetFieldData()->GetArray(palpate::arrays::HoldOutError);
-  const double error = array ? array->GetComponent(0, 0) : -1;
-  return error >= 0 ? error : std::numeric_limits<double>::quiet_NaN();
+  palpate::TriedModel tried;
+  vtkFieldData* fields = model->GetFieldData();
+  vtkDataArray* heldOut = fields->GetArray(palpate::arrays::MeasurementHeldOutResidual);
+  vtkDataArray* outliers = fields->GetArray(palpate::arrays::MeasurementOutlier);
+  if (!heldOut || !outliers)
+  {
+    return tried;
+  }
+  tried.heldOut.resize(3, heldOut->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < heldOut->GetNumberOfTuples(); ++i)
+  {
+    heldOut->GetTuple(i, tried.heldOut.col(i).data());
+    if (outliers->GetComponent(i, 0) != 0)
+    {
+      tried.outliers.push_back(static_cast<int>(i));
+    }
+  }
+  return tried;
 }
 
 std::vector<std::string> warningsOf(vtkPolyData* model)
@@ -131,18 +145,17 @@ void vtkIdentificationByCrossValidation::Compute(
 
   std::vector<vtkSmartPointer<vtkPolyData>> models;
   std::vector<std::string> names, failures;
-  std::vector<double> errors;
+  std::vector<palpate::TriedModel> tried;
   for (const Kind& kind : kinds)
   {
     auto model = vtkSmartPointer<vtkPolyData>::New();
     model->ShallowCopy(input);
     names.push_back(kind.Name);
     models.push_back(model);
-    errors.push_back(std::numeric_limits<double>::quiet_NaN());
     try
     {
       kind.Identify(model);
-      errors.back() = holdOutErrorOf(model);
+      tried.push_back(triedModelOf(model));
     }
     catch (const palpate::Aborted&)
     {
@@ -154,31 +167,28 @@ void vtkIdentificationByCrossValidation::Compute(
     }
     catch (const std::exception& failure)
     {
+      tried.emplace_back();
       failures.push_back(palpate::sentence("no ", kind.Name, " was identified: ", failure.what()));
     }
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (double error : errors)
-  {
-    least = error < least ? error : least;
-  }
-  const auto taken =
-    std::find_if(errors.begin(), errors.end(), [&](double error) { return error <= AsGood * least; });
-  if (taken == errors.end() || std::isinf(least))
+  namespace convert = palpate::convert;
+  const auto first = std::find_if(tried.begin(), tried.end(),
+    [](const palpate::TriedModel& model) { return model.heldOut.size() > 0; });
+  if (first == tried.end())
   {
     palpate::refuse(failures.empty() ? "probes left out cannot be predicted: measure under more probes"
                                      : failures.front());
   }
-  const std::size_t chosen = taken - errors.begin();
-  output->ShallowCopy(models[chosen]);
-  if (names[chosen] != "field")
+  const palpate::ModelChoice choice =
+    palpate::chooseModel(convert::measurementsOf(models[first - tried.begin()]), tried);
+  output->ShallowCopy(models[choice.taken]);
+  if (names[choice.taken] != "field")
   {
     this->GetOutputDataObject(1)->Initialize();
   }
   std::vector<std::string> warnings = warningsOf(output);
   warnings.insert(warnings.end(), failures.begin(), failures.end());
-  namespace convert = palpate::convert;
   convert::setFieldStrings(output, palpate::arrays::Warnings, warnings);
   convert::setFieldStrings(output, palpate::arrays::TriedModels, names);
-  convert::setColumn(output, palpate::arrays::TriedHoldOutErrors, errors);
+  convert::setColumn(output, palpate::arrays::TriedHoldOutErrors, choice.errors);
 }
