@@ -13,12 +13,14 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "mesh/cgal_surface.h"
+#include "mesh/flat_cells.h"
 #include "mesh/shells.h"
 
 namespace palpate {
@@ -36,7 +38,6 @@ constexpr double kBallOverEdge = 0.3;
 constexpr double kRadiusOverEdge = 2;   // of a tetrahedron: Delaunay refinement ends from 2 on
 constexpr double kWantedDihedral = 12;  // degrees
 constexpr double kPatience = 10, kPatienceOfVertex = 0.02;  // s
-constexpr double kFlatVolume = 1e-9;                       // over the longest edge cubed
 
 /// The size of the protecting ball at each vertex.
 struct BallSizes {
@@ -92,54 +93,34 @@ Complex meshed(const SurfaceMesh& surface, double cellSize) {
                                                       parameters::time_limit = patience));
 }
 
-double volumeOverEdges(const Eigen::Matrix3Xd& points, const Eigen::Vector4i& cell) {
-  double longest = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = i + 1; j < 4; ++j)
-      longest = std::max(longest, (points.col(cell[i]) - points.col(cell[j])).norm());
-  const auto edge = [&](int k) -> Eigen::Vector3d {
-    return (points.col(cell[k]) - points.col(cell[0])) / longest;
-  };
-  return std::abs(edge(1).cross(edge(2)).dot(edge(3))) / 6;
+/// Whether vertices are corners of faces that only one cell has.
+std::vector<bool> boundaryVertices(int count, const Eigen::Matrix4Xi& tetrahedra) {
+  std::map<std::array<int, 3>, int> cellsAt;
+  for (const auto& cell : tetrahedra.colwise())
+    for (int k = 0; k < 4; ++k) {
+      std::array<int, 3> face{cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4]};
+      std::sort(face.begin(), face.end());
+      ++cellsAt[face];
+    }
+  std::vector<bool> isOuter(count, false);
+  for (const auto& [face, cells] : cellsAt)
+    for (int vertex : face) isOuter[vertex] = isOuter[vertex] || cells == 1;
+  return isOuter;
 }
 
-/// Four vertices on one circle may make a cell without volume. Where it has two faces on the
-/// boundary it is left out, and the two others, of the same four vertices, are in their place.
-void leaveOutFlatOnes(const Eigen::Matrix3Xd& points, Eigen::Matrix4Xi& tetrahedra) {
-  const auto face = [&](Eigen::Index cell, int opposite) {
-    std::array<int, 3> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = tetrahedra((opposite + 1 + k) % 4, cell);
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
-  std::vector<Eigen::Index> flat, kept;
-  std::map<std::array<int, 3>, int> cellsAt;  // of the faces of flat cells
-  for (Eigen::Index t = 0; t < tetrahedra.cols(); ++t)
-    if (volumeOverEdges(points, tetrahedra.col(t)) < kFlatVolume) {
-      flat.push_back(t);
-      for (int k = 0; k < 4; ++k) cellsAt[face(t, k)] = 0;
-    }
-  if (flat.empty()) return;
-  for (Eigen::Index t = 0; t < tetrahedra.cols(); ++t)
-    for (int k = 0; k < 4; ++k) {
-      const auto found = cellsAt.find(face(t, k));
-      if (found != cellsAt.end()) ++found->second;
-    }
-  const auto hasTwoOuterFaces = [&](Eigen::Index t) {
-    int outer = 0;
-    for (int k = 0; k < 4; ++k) outer += cellsAt.at(face(t, k)) == 1;
-    return outer == 2;
-  };
-  std::vector<bool> isLeftOut(tetrahedra.cols(), false);
-  for (auto next = flat.begin();
-       (next = std::find_if(flat.begin(), flat.end(), hasTwoOuterFaces)) != flat.end();
-       flat.erase(next)) {
-    isLeftOut[*next] = true;
-    for (int k = 0; k < 4; ++k) --cellsAt.at(face(*next, k));
-  }
-  for (Eigen::Index t = 0; t < tetrahedra.cols(); ++t)
-    if (!isLeftOut[t]) kept.push_back(t);
-  tetrahedra = Eigen::Matrix4Xi(tetrahedra(Eigen::all, kept));
+/// Puts the points behind the first so many in order: those on the boundary before the others.
+/// @return how many of them are on the boundary.
+int orderAdded(int first, Eigen::Matrix3Xd& points, Eigen::Matrix4Xi& tetrahedra) {
+  const std::vector<bool> isOuter = boundaryVertices(static_cast<int>(points.cols()), tetrahedra);
+  std::vector<int> order(points.cols());
+  std::iota(order.begin(), order.end(), 0);
+  const auto firstInner =
+      std::stable_partition(order.begin() + first, order.end(), [&](int v) { return isOuter[v]; });
+  std::vector<int> number(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+  points = Eigen::Matrix3Xd(points(Eigen::all, order));
+  for (int& vertex : tetrahedra.reshaped()) vertex = number[vertex];
+  return static_cast<int>(firstInner - order.begin()) - first;
 }
 
 /// Points and tetrahedra of a complex, the surface's vertices first, then those of its boundary.
@@ -170,12 +151,6 @@ Tetrahedralization numbered(const Complex& complex, const SurfaceMesh& surface) 
     throw std::runtime_error("the surface could not be filled with tetrahedra: its vertex " +
                              std::to_string(lost - isKept.begin()) +
                              " was lost; remesh the surface, or give a volume mesh");
-  std::set<Handle> onBoundary;
-  for (auto facet = complex.facets_in_complex_begin(); facet != complex.facets_in_complex_end();
-       ++facet)
-    for (int k = 1; k < 4; ++k) onBoundary.insert(facet->first->vertex((facet->second + k) % 4));
-  const auto firstInner = std::stable_partition(
-      added.begin(), added.end(), [&](Handle handle) { return onBoundary.count(handle) > 0; });
   Eigen::Matrix3Xd points(3, surface.vertexCount() + static_cast<int>(added.size()));
   points.leftCols(surface.vertexCount()) = surface.points();
   int next = surface.vertexCount();
@@ -188,9 +163,15 @@ Tetrahedralization numbered(const Complex& complex, const SurfaceMesh& surface) 
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end();
        ++cell, ++t)
     for (int k = 0; k < 4; ++k) tetrahedra(k, t) = number[cell->vertex(k)];
-  leaveOutFlatOnes(points, tetrahedra);
-  return {TetrahedralMesh(std::move(points), std::move(tetrahedra)),
-          static_cast<int>(firstInner - added.begin()), 0};
+  removeFlatCells(points, tetrahedra);
+  const int newOnBoundary = orderAdded(surface.vertexCount(), points, tetrahedra);
+  try {
+    return {TetrahedralMesh(std::move(points), std::move(tetrahedra)), newOnBoundary, 0};
+  } catch (const std::invalid_argument& failure) {
+    throw std::runtime_error(
+        "the surface could not be filled with tetrahedra: " + std::string(failure.what()) +
+        "; remesh the surface, or give a volume mesh");
+  }
 }
 
 int countLost(const Eigen::Matrix3Xi& triangles, const Eigen::Matrix3Xi& boundary) {
