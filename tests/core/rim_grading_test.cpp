@@ -90,7 +90,7 @@ TEST(RimGrading, KeepsTheSurfaceWhereItIsAndConforming) {
 TEST(RimGrading, PutsNewVerticesBetweenEarlierOnes) {
   for (const Supported& s : supported()) {
     const GradedSurface graded = s.graded(3);
-    for (Eigen::Index v = 0; v < graded.points.cols(); ++v) {
+    for (int v = 0; v < graded.points.cols(); ++v) {
       const int a = graded.parents(0, v), b = graded.parents(1, v);
       if (v < s.shape.points.cols()) {
         EXPECT_TRUE(a == v && b == v);
@@ -102,6 +102,12 @@ TEST(RimGrading, PutsNewVerticesBetweenEarlierOnes) {
       const Eigen::Vector3d point =
           (1 - share) * graded.points.col(a) + share * graded.points.col(b);
       EXPECT_LT((graded.points.col(v) - point).norm(), 1e-12);
+      Eigen::Vector3d ofAncestors = Eigen::Vector3d::Zero();
+      for (const auto& [ancestor, part] : graded.ancestors(v)) {
+        EXPECT_LT(ancestor, s.shape.points.cols());
+        ofAncestors += part * s.shape.points.col(ancestor);
+      }
+      EXPECT_LT((ofAncestors - point).norm(), 1e-12);
     }
   }
 }

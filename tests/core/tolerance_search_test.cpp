@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "greens/error_estimate.h"
 #include "mesh/loop_subdivision.h"
 #include "mesh/smooth_patches.h"
+#include "model/graded_model.h"
 #include "model/support.h"
 #include "support/data_models.h"
 #include "support/problems.h"
@@ -29,7 +31,7 @@ class Levels {
     meshes_.push_back({base_.shape, base_.boundaryTypes});
   }
 
-  ElasticModel operator()(int level) {
+  ElasticModel operator()(int level, int layers = 0) {
     while (static_cast<int>(meshes_.size()) <= level) {
       const Mesh& last = meshes_.back();
       const SubdivisionLevel next = subdivideLoop(*last.shape.mesh());
@@ -38,8 +40,9 @@ class Levels {
     }
     const auto mesh = meshes_[level].shape.mesh();
     const BoundaryConditions conditions(meshes_[level].boundaryTypes);
-    return ElasticModel(mesh, Material(base_.youngsModulus, base_.poissonRatio), conditions,
-                        splitAtSupport(*mesh, conditions, findSmoothPatches(*mesh, 30)));
+    const ElasticModel model(mesh, Material(base_.youngsModulus, base_.poissonRatio), conditions,
+                             splitAtSupport(*mesh, conditions, findSmoothPatches(*mesh, 30)));
+    return layers > 0 ? gradedModel(model, layers) : model;
   }
 
  private:
@@ -75,8 +78,7 @@ Met loadsThatMeet(const std::string& name, double tolerance) {
   ToleranceLimits limits;
   limits.levels = 3;
   limits.vertices = 700;
-  ToleranceResult result =
-      computeToTolerance([&](int level) { return levels(level); }, tolerance, limits, {});
+  ToleranceResult result = computeToTolerance(std::ref(levels), tolerance, limits, {});
   const ErrorEstimate estimate = result.greens.info.diagnostics.error;
   EXPECT_LE(estimate.most(), tolerance) << name;
   const LoadDifferences errors =
@@ -109,9 +111,9 @@ TEST(ToleranceSearch, TakesTheCoarsestLevelThatMeetsIt) {
   Levels levels("nodule");
   std::vector<int> asked;
   const ToleranceResult result = computeToTolerance(
-      [&](int level) {
+      [&](int level, int layers) {
         asked.push_back(level);
-        return levels(level);
+        return levels(level, layers);
       },
       0.3, {4, 700}, {});
   EXPECT_EQ(result.level, 0);
@@ -124,7 +126,7 @@ TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
   Levels levels("nodule");
   const auto refusal = [&](double tolerance, ToleranceLimits limits) {
     try {
-      computeToTolerance([&](int level) { return levels(level); }, tolerance, limits, {});
+      computeToTolerance(std::ref(levels), tolerance, limits, {});
     } catch (const std::runtime_error& error) {
       return std::string(error.what());
     }
@@ -142,20 +144,18 @@ TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
 
 TEST(ToleranceSearch, RefusesASurfaceThatIsLargerThanAllowed) {
   Levels levels("nodule");
-  EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, 0.5, {0, 30}, {}),
-               std::runtime_error);
+  EXPECT_THROW(computeToTolerance(std::ref(levels), 0.5, {0, 30}, {}), std::runtime_error);
 }
 
 TEST(ToleranceSearch, RefusesImpossibleTolerances) {
   Levels levels("nodule");
   for (double tolerance : {0.0, -1.0, 1.0, std::nan("")})
-    EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, tolerance, {}, {}),
-                 std::invalid_argument);
+    EXPECT_THROW(computeToTolerance(std::ref(levels), tolerance, {}, {}), std::invalid_argument);
 }
 
 TEST(ToleranceSearch, CanBeAborted) {
   Levels levels("kidney");
-  EXPECT_THROW(computeToTolerance([&](int level) { return levels(level); }, 0.05, {}, {},
+  EXPECT_THROW(computeToTolerance(std::ref(levels), 0.05, {}, {},
                                   [](double fraction, const char*) { return fraction < 0.5; }),
                Aborted);
 }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
-#include "greens/error_estimate.h"
-#include "greens/load_differences.h"
+#include "bem/tolerance_levels.h"
+#include "mesh/rim_grading.h"
 
 namespace palpate {
 namespace {
@@ -21,7 +23,6 @@ constexpr double kMargin = 1.2;     // of estimates that are relied on
 constexpr double kDoubtful = 2;     // predictions may be wrong by this factor
 constexpr int kLeastVertices = 50;  // of a level that tells of the next one's error
 constexpr int kSmall = 200;  // vertices; below, the next level tells of the error, and costs little
-constexpr int kLevelFactor = 4;  // vertices of a level over those of the level before
 constexpr double kLevelCost = 64;
 constexpr double kForeseen = 0.9;  // share of the progress; the rest is left for one level more
 
@@ -32,143 +33,238 @@ std::string percent(double share) {
   return text.str();
 }
 
-/// A level of the hierarchy, solved.
-struct Level {
-  ElasticModel model;
-  ComputedGreensFunctions result;
+std::string alongRim(int layers) {
+  if (layers == 0) return "";
+  return " with " + std::to_string(layers) + (layers == 1 ? " layer" : " layers") +
+         " along the rim of the support";
+}
 
-  int vertices() const { return model.mesh().vertexCount(); }
-  SpreadLoads loads() const { return errorLoads(model); }
+/// The parts of a level's error without layers, as ToleranceLevels tells them.
+struct ErrorParts {
+  int level = 0;
+  double rim = 0, rest = 0;
+
+  double at(MeshSetting setting) const {
+    const double edges = std::pow(kEdgeGrowth, setting.level - level);
+    return rim * std::pow(kLayerShare, setting.layers) / edges + rest / (edges * edges);
+  }
+
+  /// With a rest that makes them at least the error of a mesh.
+  ErrorParts observed(MeshSetting setting, double error) const {
+    const double edges = std::pow(kEdgeGrowth, setting.level - level);
+    const double left = rim * std::pow(kLayerShare, setting.layers) / edges;
+    return {level, rim, std::max((error - left) * edges * edges, rest)};
+  }
 };
 
-/// @param loads  of the coarser level or one before it.
-LoadDifferences differenceOf(const Level& finer, const Level& coarser, const SpreadLoads& loads) {
-  return compareUnderLoads(*finer.result.view(), finer.model.mesh(), *coarser.result.view(),
-                           coarser.model.mesh(), loads);
-}
-
-double edgeRatio(const Level& finer, const Level& coarser) {
-  return std::sqrt(double(finer.vertices()) / coarser.vertices());
-}
-
-/// The order that three levels show under the loads of the coarsest, between a half and two.
-double observedOrder(const Level& fine, const Level& middle, const Level& coarse) {
-  const SpreadLoads loads = coarse.loads();
-  const double before = LoadDifferences::mean(differenceOf(middle, coarse, loads).field),
-               after = LoadDifferences::mean(differenceOf(fine, middle, loads).field);
-  return std::clamp(std::log(before / after) / std::log(edgeRatio(fine, middle)), 0.5, 2.0);
-}
+/// A mesh that was not tried yet, and what is expected of it.
+struct Candidate {
+  MeshSetting setting;
+  double vertices, error;
+};
 
 class Search {
  public:
-  Search(const std::function<ElasticModel(int)>& model, double tolerance,
-         const ToleranceLimits& limits, BoundaryElementOptions options, const Progress& progress)
-      : model_(model),
-        tolerance_(tolerance),
+  Search(const MeshHierarchy& hierarchy, double tolerance, const ToleranceLimits& limits,
+         const BoundaryElementOptions& options, const Progress& progress)
+      : tolerance_(tolerance),
         limits_(limits),
-        options_(std::move(options)),
+        levels_(hierarchy, limits.vertices, optionsFor(tolerance, options)),
         progress_(progress),
-        expected_(std::min(limits.levels, 2)) {
-    options_.estimateError = false;  // done here
-    options_.solver = LinearSolver::Direct;
-    options_.tolerance =
-        std::clamp(kShareOfOthers * tolerance, kLeastIntegration, kMostIntegration);
-    options_.precision = tolerance < kFloatTolerance ? Precision::Double : Precision::Float;
-  }
+        expected_(std::min(limits.levels, 2)) {}
 
   ToleranceResult run() {
     for (int k = 0;; ++k) {
-      solve(k);
-      const ErrorEstimate estimate = estimateLevel(k);
-      levels_[k].result.info.diagnostics.error = estimate;
-      if (estimate.most() < 0)
-        throw std::runtime_error(
-            "no error can be estimated for this surface: leave out the tolerance");
-      steps_.push_back(describe(k, estimate.most()));
-      if (kMargin * estimate.most() <= tolerance_)
-        return {k, std::move(levels_[k].result), std::move(steps_)};
-      requireReachable(k, estimate.most());
-      const double missing = std::log2(kMargin * estimate.most() / tolerance_) / order_;
+      solveUpTo(k);
+      if (judge({k, 0}, estimateLevel(k))) return result();
+      if (mayHaveLayers(k)) return chooseLayers(k);
+      requireReachable(k);
+      const double missing = std::log2(kMargin * best_.error / tolerance_) / order_;
       expected_ = k + std::max(1, static_cast<int>(std::ceil(missing)));
     }
   }
 
  private:
-  /// Solves the levels up to this one that are not yet.
-  void solve(int level) {
-    for (int k = static_cast<int>(levels_.size()); k <= level; ++k) {
-      const ProgressCallback callback = partOf(k).callback();
-      const ElasticModel model = model_(k);
-      requireAllowed(model.mesh().vertexCount());
-      try {
-        levels_.push_back(
-            {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
-      } catch (const std::runtime_error& failure) {
-        if (options_.precision != Precision::Float || dynamic_cast<const Aborted*>(&failure)) throw;
-        options_.precision = Precision::Double;
-        levels_.push_back(
-            {model, computeBoundaryElementGreensFunctions(model, options_, callback)});
-      }
+  static BoundaryElementOptions optionsFor(double tolerance, BoundaryElementOptions options) {
+    options.estimateError = false;  // done here
+    options.solver = LinearSolver::Direct;
+    options.tolerance = std::clamp(kShareOfOthers * tolerance, kLeastIntegration, kMostIntegration);
+    options.precision = tolerance < kFloatTolerance ? Precision::Double : Precision::Float;
+    return options;
+  }
+
+  /// Notes an estimate, and whether it is within the tolerance.
+  bool judge(MeshSetting setting, const ErrorEstimate& estimate) {
+    const double error = estimate.most();
+    if (error < 0)
+      throw std::runtime_error(
+          "no error can be estimated for this surface: leave out the tolerance");
+    steps_.push_back(describe(setting, error));
+    tried_.insert(setting);
+    if (tried_.size() == 1 || error < best_.error) {
+      best_ = {setting, double(vertices(setting)), error};
+      bestEstimate_ = estimate;
     }
+    return kMargin * error <= tolerance_;
+  }
+
+  /// The best.
+  ToleranceResult result() {
+    ToleranceResult result{best_.setting.level, best_.setting.layers, levels_.take(best_.setting),
+                           std::move(steps_)};
+    result.greens.info.diagnostics.error = bestEstimate_;
+    return result;
+  }
+
+  int vertices(MeshSetting setting) const { return levels_.at(setting).vertices(); }
+
+  std::shared_ptr<const GreensFunctions> greens(int level) const {
+    return levels_.at({level, 0}).result.view();
+  }
+
+  void solveUpTo(int level) {
+    for (int k = 0; k <= level; ++k)
+      if (!levels_.isSolved({k, 0})) levels_.solve({k, 0}, partOf(k));
   }
 
   /// A level's part of the progress, as far as is foreseen: levels cost 64 times the one before.
   Progress partOf(int level) {
-    const double begin = done_, share = std::pow(kLevelCost, std::min(0, level - expected_));
-    done_ += kForeseen * share * (1 - done_);
+    return nextPart(kForeseen * std::pow(kLevelCost, std::min(0, level - expected_)));
+  }
+
+  /// @param share  of what is left.
+  Progress nextPart(double share) {
+    const double begin = done_;
+    done_ += share * (1 - done_);
     return progress_.part(begin, done_);
   }
 
-  void requireAllowed(int vertices) const {
-    if (vertices <= limits_.vertices) return;
-    throw std::runtime_error("the surface has " + std::to_string(vertices) +
-                             " vertices, more than the " + std::to_string(limits_.vertices) +
-                             " that a tolerance may take: allow more, or make the mesh coarser");
+  bool mayRefine(int level) const {
+    return level < limits_.levels && kLevelGrowth * vertices({level, 0}) <= limits_.vertices;
   }
 
-  bool mayRefine(int level) const {
-    return level < limits_.levels && kLevelFactor * levels_[level].vertices() <= limits_.vertices;
+  bool hasCoarser(int level) const {
+    return level > 0 && vertices({level - 1, 0}) >= kLeastVertices;
   }
 
   ErrorEstimate estimateLevel(int level) {
-    const bool isSmall = levels_[level].vertices() < kSmall;
+    const bool isSmall = vertices({level, 0}) < kSmall;
     if (isSmall && mayRefine(level)) return estimateByFiner(level);
-    if (!isSmall && level > 0 && levels_[level - 1].vertices() >= kLeastVertices)
-      return estimateByCoarser(level);
-    const Level& own = levels_[level];
-    return estimateError(own.model, estimatedMethod(options_), *own.result.view(),
-                         progress_.part(done_, done_));
+    if (mayHaveLayers(level)) return levels_.estimateByParts({level, 0});
+    if (!isSmall && hasCoarser(level)) return estimateByCoarser(level);
+    return estimateError(levels_.at({level, 0}).model, estimatedMethod(levels_.options()),
+                         *greens(level), progress_.part(done_, done_));
+  }
+
+  double edgeRatio(int finer) const {
+    return std::sqrt(double(vertices({finer, 0})) / vertices({finer - 1, 0}));
+  }
+
+  LoadDifferences differences(int finer, const SpreadLoads& loads) const {
+    return levels_.differences({finer, 0}, {finer - 1, 0}, loads);
   }
 
   ErrorEstimate estimateByFiner(int level) {
-    solve(level + 1);
-    const Level &own = levels_[level], &finer = levels_[level + 1];
-    order_ = discretizationOrder(*finer.result.view());
-    const double gain = std::pow(edgeRatio(finer, own), order_);
-    return estimateBy(differenceOf(finer, own, own.loads()), gain / (gain - 1), own, own);
+    solveUpTo(level + 1);
+    order_ = discretizationOrder(*greens(level + 1));
+    const double gain = std::pow(edgeRatio(level + 1), order_);
+    return estimateBy(level + 1, levels_.loads(level), gain / (gain - 1), level);
   }
 
   ErrorEstimate estimateByCoarser(int level) {
-    const Level &own = levels_[level], &coarser = levels_[level - 1];
-    order_ = level < 2 ? discretizationOrder(*own.result.view())
-                       : observedOrder(own, coarser, levels_[level - 2]);
-    const double gain = std::pow(edgeRatio(own, coarser), order_);
-    return estimateBy(differenceOf(own, coarser, coarser.loads()), 1 / (gain - 1), own, coarser);
+    order_ = level < 2 ? discretizationOrder(*greens(level)) : observedOrder(level);
+    const double gain = std::pow(edgeRatio(level), order_);
+    return estimateBy(level, levels_.loads(level - 1), 1 / (gain - 1), level);
   }
 
-  /// @param loaded  the level that the loads were chosen for.
-  static ErrorEstimate estimateBy(const LoadDifferences& differences, double factor,
-                                  const Level& own, const Level& loaded) {
-    ErrorEstimate estimate = otherErrors(*own.result.view());
-    addDiscretization(differences, factor, loaded.loads().length, estimate);
+  /// @param finer  of the two levels whose difference, by this factor, is the error.
+  ErrorEstimate estimateBy(int finer, const SpreadLoads& loads, double factor, int level) const {
+    ErrorEstimate estimate = otherErrors(*greens(level));
+    addDiscretization(differences(finer, loads), factor, loads.length, estimate);
     return estimate;
   }
 
-  std::string describe(int level, double error) const {
+  /// The order that three levels show under the loads of the coarsest, between a half and two.
+  double observedOrder(int fine) const {
+    const SpreadLoads loads = levels_.loads(fine - 2);
+    const double before = LoadDifferences::mean(differences(fine - 1, loads).field),
+                 after = LoadDifferences::mean(differences(fine, loads).field);
+    return std::clamp(std::log(before / after) / std::log(edgeRatio(fine)), 0.5, 2.0);
+  }
+
+  /// Whether layers can be chosen from a level on: there is a rim, and a level before to see on
+  /// what they gain.
+  bool mayHaveLayers(int level) {
+    if (limits_.layers == 0 || vertices({level, 0}) < kSmall || !hasCoarser(level)) return false;
+    const MeshSetting layered{level - 1, 1};
+    if (!levels_.isAllowed(layered)) return false;
+    levels_.solve(layered, nextPart(1 / kLevelCost));
+    return vertices(layered) > vertices({level - 1, 0});
+  }
+
+  /// Tries meshes, the smallest that should meet the tolerance first.
+  ToleranceResult chooseLayers(int level) {
+    const MeshSetting plain{level - 1, 0}, layered{level - 1, 1};
+    const double rim = mostOf(levels_.rimErrors(layered, levels_.loads(level - 1))) / kEdgeGrowth;
+    ErrorParts parts = ErrorParts{level, rim, 0}.observed({level, 0}, best_.error);
+    const double layer = kEdgeGrowth * (vertices(layered) - vertices(plain));
+    bool knowsRest = false;
+    for (;;) {
+      MeshSetting next = choose(candidates(parts, level, layer));
+      // A level with layers tells the rest of the error better than one without.
+      if (next.level > level && !knowsRest && levels_.isAllowed({level, 1})) next = {level, 1};
+      knowsRest = true;
+      if (!levels_.isAllowed(next)) {
+        tried_.insert(next);
+        continue;
+      }
+      levels_.solveWithCoarser(next, nextPart(kForeseen));
+      const ErrorEstimate estimate = levels_.estimateByParts(next);
+      if (judge(next, estimate)) return result();
+      parts = parts.observed(next, estimate.most());
+    }
+  }
+
+  /// What the limits allow from a level on and was not tried.
+  /// @param layer  vertices of a layer there.
+  std::vector<Candidate> candidates(const ErrorParts& parts, int level, double layer) const {
+    std::vector<Candidate> all;
+    double plain = vertices({level, 0});
+    for (int k = level; k <= limits_.levels; ++k) {
+      for (int layers = 0; layers <= limits_.layers; ++layers) {
+        const MeshSetting setting{k, layers};
+        const double count = plain + layers * layer;
+        if (count <= limits_.vertices && tried_.count(setting) == 0)
+          all.push_back({setting, count, parts.at(setting)});
+      }
+      plain *= kLevelGrowth;
+      layer *= kEdgeGrowth;
+    }
+    return all;
+  }
+
+  /// The smallest that should meet the tolerance, or the best if it may.
+  MeshSetting choose(const std::vector<Candidate>& all) {
+    const Candidate *smallest = nullptr, *best = nullptr;
+    for (const Candidate& candidate : all) {
+      if (kMargin * candidate.error <= tolerance_ &&
+          (!smallest || candidate.vertices < smallest->vertices))
+        smallest = &candidate;
+      if (!best || candidate.error < best->error) best = &candidate;
+    }
+    if (smallest) return smallest->setting;
+    const bool gains = best && best->error < best_.error;
+    if (!gains) refuse(nullptr);
+    if (best->error > kDoubtful * tolerance_) refuse(best);
+    return best->setting;
+  }
+
+  std::string describe(MeshSetting setting, double error) const {
     std::ostringstream text;
-    text << "level " << level << ", " << levels_[level].vertices() << " vertices, "
-         << (levels_[level].result.floatMatrix.size() > 0 ? "single" : "double")
-         << " precision, integrals to " << options_.tolerance << ": estimated error "
+    text << "level " << setting.level << ", " << vertices(setting) << " vertices"
+         << alongRim(setting.layers) << ", "
+         << (levels_.at(setting).result.floatMatrix.size() > 0 ? "single" : "double")
+         << " precision, integrals to " << levels_.options().tolerance << ": estimated error "
          << percent(error)
          << (kMargin * error <= tolerance_ ? ", by a fifth within " : ", not by a fifth within ")
          << percent(tolerance_);
@@ -176,41 +272,53 @@ class Search {
   }
 
   /// Whether a level that the limits allow may meet the tolerance, by the error of the last.
-  void requireReachable(int level, double error) const {
-    const int vertices = levels_[level].vertices();
-    int more = 0;
-    for (double next = double(kLevelFactor) * vertices;
-         level + more < limits_.levels && next <= limits_.vertices; next *= kLevelFactor)
-      ++more;
-    const double reachable = error / std::pow(2.0, order_ * more);
-    if (more > 0 && (vertices < kSmall || reachable <= kDoubtful * tolerance_)) return;
+  void requireReachable(int level) const {
+    Candidate last{{level, 0}, double(vertices({level, 0})), 0};
+    while (last.setting.level < limits_.levels &&
+           kLevelGrowth * last.vertices <= limits_.vertices) {
+      ++last.setting.level;
+      last.vertices *= kLevelGrowth;
+    }
+    const int more = last.setting.level - level;
+    if (more == 0) refuse(nullptr);
+    // Layers may yet take the rim's part away, which leaves an order of two.
+    const double order = limits_.layers > 0 ? std::max(order_, 2.0) : order_;
+    last.error = best_.error / std::pow(kEdgeGrowth, order * more);
+    if (vertices({level, 0}) >= kSmall && last.error > kDoubtful * tolerance_) refuse(&last);
+  }
+
+  /// @param best  of the meshes that the limits allow, if it is better than those tried.
+  [[noreturn]] void refuse(const Candidate* best) const {
     std::ostringstream text;
-    text << "a tolerance of " << percent(tolerance_) << " is out of reach: level " << level
-         << " with its " << vertices << " vertices has an estimated error of " << percent(error);
-    if (more > 0)
-      text << ", and level " << level + more << ", the last within " << limits_.levels
-           << " refinements and " << limits_.vertices << " vertices, would have about "
-           << percent(reachable);
+    text << "a tolerance of " << percent(tolerance_) << " is out of reach: level "
+         << best_.setting.level << " with its " << best_.vertices << " vertices"
+         << alongRim(best_.setting.layers) << " has an estimated error of " << percent(best_.error);
+    std::ostringstream within;
+    within << " within " << limits_.levels << " refinements and " << limits_.vertices
+           << " vertices";
+    if (best)
+      text << ", and level " << best->setting.level << ", the last" << within.str()
+           << ", would have about " << percent(best->error) << alongRim(best->setting.layers);
     else
-      text << " and is the last within " << limits_.levels << " refinements and "
-           << limits_.vertices << " vertices";
+      text << " and is the " << (tried_.size() > 1 ? "best" : "last") << within.str();
     throw std::runtime_error(text.str());
   }
 
-  const std::function<ElasticModel(int)>& model_;
-  double tolerance_;
-  ToleranceLimits limits_;
-  BoundaryElementOptions options_;
+  const double tolerance_;
+  const ToleranceLimits limits_;
+  ToleranceLevels levels_;
   Progress progress_;
-  std::vector<Level> levels_;
   double order_ = 1, done_ = 0;
   int expected_;  ///< level that may meet the tolerance
+  std::set<MeshSetting> tried_;
+  Candidate best_;  ///< of those
+  ErrorEstimate bestEstimate_;
   std::vector<std::string> steps_;
 };
 
 }  // namespace
 
-ToleranceResult computeToTolerance(const std::function<ElasticModel(int)>& level, double tolerance,
+ToleranceResult computeToTolerance(const MeshHierarchy& hierarchy, double tolerance,
                                    const ToleranceLimits& limits,
                                    const BoundaryElementOptions& options,
                                    const ProgressCallback& progress) {
@@ -218,7 +326,7 @@ ToleranceResult computeToTolerance(const std::function<ElasticModel(int)>& level
     throw std::invalid_argument("the tolerance must be above 0 and below 1, not " +
                                 std::to_string(tolerance));
   const Progress whole(progress);
-  ToleranceResult result = Search(level, tolerance, limits, options, whole).run();
+  ToleranceResult result = Search(hierarchy, tolerance, limits, options, whole).run();
   whole.report(1, "done");
   return result;
 }

@@ -12,37 +12,46 @@
 
 namespace palpate {
 
+/// Gives the model of a surface that is refined so often and then has so many layers along the rim
+/// of its support (gradedModel). A level's vertices, before it gets layers, are the first of all
+/// finer ones, though they may have moved.
+using MeshHierarchy = std::function<ElasticModel(int level, int layers)>;
+
 /// How far a search may go.
 struct ToleranceLimits {
   int levels = 0;       ///< refinements of the mesh that is given, at most
   int vertices = 3000;  ///< of any mesh; double Green's functions take 72 bytes their square
+  int layers = 3;       ///< along the rim of the support (gradeTowardsSupport), at most
 };
 
 /// The cheapest settings found.
 struct ToleranceResult {
-  int level = 0;  ///< refinements
+  int level = 0, layers = 0;
   ComputedGreensFunctions greens;
   std::vector<std::string> steps;  ///< sentences: what was tried, what was chosen and why
 };
 
 /// Green's functions whose estimated error (ErrorEstimate::most: that of displacements and of
 /// contact compliances, which 95 % of the loads do not exceed) is by a fifth within a tolerance, on
-/// the coarsest level of a hierarchy of meshes that meets it.
+/// the smallest mesh of a hierarchy that meets it.
 /// - Levels are solved from the coarsest on, as each costs up to 64 times the one before. The error
 ///   of one below 200 vertices is that of its difference from the next; of others, from the one
 ///   before, by the order that three levels show, where there are three; estimateError serves where
 ///   there is no such level.
+/// - From 200 vertices on, layers along the rim of the support are chosen with the levels. What
+/// they
+///   gain is seen on the level before, where it costs little, and tells the rim's part of the error
+///   from the rest (ToleranceLevels); of the meshes that should meet the tolerance the smallest is
+///   solved, and judged by the level before with as many layers.
 /// - Integrals and arithmetic take a hundredth of the tolerance: single precision from 1e-3 on,
 ///   where the system's condition allows.
-/// @param level     gives the model's k-th level; called for 0, 1, 2 ... A level's vertices are the
-///                  first of the next, though they may have moved.
 /// @param tolerance relative, above 0 and below 1.
 /// @param options   its tolerance and precision are chosen here.
 /// @throws std::invalid_argument for another tolerance; std::runtime_error with the error that is
 ///         within reach if the limits do not allow the tolerance, or if no error can be estimated;
 ///         as computeBoundaryElementGreensFunctions.
-ToleranceResult computeToTolerance(const std::function<ElasticModel(int level)>& level,
-                                   double tolerance, const ToleranceLimits& limits,
+ToleranceResult computeToTolerance(const MeshHierarchy& hierarchy, double tolerance,
+                                   const ToleranceLimits& limits,
                                    const BoundaryElementOptions& options,
                                    const ProgressCallback& progress = {});
 

@@ -98,13 +98,15 @@ SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions&
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
                                   const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
                                   const std::vector<int>& vertices, const SpreadLoads& loads) {
-  const std::vector<int> rows = coarser.info().conditions.freeNodes();
-  std::vector<int> finerRows;
+  std::vector<int> rows, finerRows;
+  for (int row : coarser.info().conditions.freeNodes())
+    if (vertices[row] >= 0) {
+      rows.push_back(row);
+      finerRows.push_back(vertices[row]);
+    }
   Eigen::VectorXd weights(3 * rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    finerRows.push_back(vertices[rows[i]]);
+  for (std::size_t i = 0; i < rows.size(); ++i)
     weights.segment<3>(3 * i).setConstant(coarser.vertexArea(rows[i]));
-  }
   LoadDifferences differences;
   for (int vertex : loads.vertices) {
     const auto fine = respond(finer, finerMesh, vertices[vertex], loads.length, finerRows);

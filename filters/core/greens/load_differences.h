@@ -37,7 +37,8 @@ struct LoadDifferences {
 };
 
 /// @param finer     over a mesh that has the coarser one's vertices, if slightly moved.
-/// @param vertices  #coarser nodes, their numbers in the finer mesh.
+/// @param vertices  #coarser nodes, their numbers in the finer mesh; negative for those that it
+///                  lacks, which are not compared.
 /// @param loads     of the coarser mesh.
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
                                   const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,

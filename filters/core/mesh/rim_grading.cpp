@@ -227,6 +227,15 @@ class Grading {
 
 }  // namespace
 
+std::map<int, double> GradedSurface::ancestors(int point) const {
+  if (parents(0, point) == point) return {{point, 1.0}};
+  std::map<int, double> shares;
+  for (int k = 0; k < 2; ++k)
+    for (const auto& [ancestor, part] : ancestors(parents(k, point)))
+      shares[ancestor] += part * (k == 0 ? 1 - share[point] : share[point]);
+  return shares;
+}
+
 GradedSurface gradeTowardsSupport(const SurfaceMesh& mesh, const std::vector<unsigned char>& types,
                                   int layers) {
   if (static_cast<int>(types.size()) != mesh.vertexCount())

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 namespace palpate {
@@ -19,6 +20,9 @@ struct GradedSurface {
   Eigen::Matrix2Xi parents;
   Eigen::VectorXd share;            ///< #points, of the second parent
   std::vector<int> parentTriangle;  ///< #triangles
+
+  /// The old vertices between which a point lies, with their shares.
+  std::map<int, double> ancestors(int point) const;
 };
 
 /// How far from the rim a layer ends, as a part of the way to where the one before ended.

@@ -5,6 +5,7 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "mesh/rim_grading.h"
 #include "mesh/smooth_patches.h"
 #include "mesh/subdivision.h"
 #include "mesh/surface_mesh.h"
@@ -14,6 +15,7 @@
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -25,6 +27,7 @@ void vtkSurfaceRefinement::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n"
+     << indent << "SupportLayers: " << this->SupportLayers << "\n"
      << indent << "Subdivision: " << this->Subdivision << "\n"
      << indent << "SmoothAngle: " << this->SmoothAngle << "\n";
 }
@@ -49,21 +52,55 @@ void interpolatePointData(vtkPolyData* coarse, const palpate::SubdivisionLevel& 
   }
 }
 
-void inheritCellData(vtkPolyData* coarse, const palpate::SubdivisionLevel& level, vtkPolyData* fine)
+void interpolatePointData(vtkPolyData* coarse, const palpate::GradedSurface& graded, vtkPolyData* fine)
+{
+  vtkPointData* points = fine->GetPointData();
+  points->Initialize();
+  points->InterpolateAllocate(coarse->GetPointData(), graded.points.cols());
+  vtkNew<vtkIdList> ids;
+  std::vector<double> shares;
+  for (Eigen::Index v = 0; v < graded.points.cols(); ++v)
+  {
+    ids->Reset();
+    shares.clear();
+    for (const auto& [ancestor, share] : graded.ancestors(static_cast<int>(v)))
+    {
+      ids->InsertNextId(ancestor);
+      shares.push_back(share);
+    }
+    points->InterpolatePoint(coarse->GetPointData(), v, ids, shares.data());
+  }
+  convert::setBoundaryTypes(
+    fine, palpate::gradedBoundaryTypes(graded, convert::boundaryTypesOf(coarse, false)));
+}
+
+void inheritCellData(vtkPolyData* coarse, const std::vector<int>& parentTriangle, vtkPolyData* fine)
 {
   vtkCellData* cells = fine->GetCellData();
   cells->Initialize();
-  cells->CopyAllocate(coarse->GetCellData(), level.triangles.cols());
-  for (Eigen::Index f = 0; f < level.triangles.cols(); ++f)
+  cells->CopyAllocate(coarse->GetCellData(), parentTriangle.size());
+  for (std::size_t f = 0; f < parentTriangle.size(); ++f)
   {
-    cells->CopyData(coarse->GetCellData(), level.parentTriangle[f], f);
+    cells->CopyData(coarse->GetCellData(), parentTriangle[f], f);
   }
+}
+
+void grade(vtkPolyData* surface, int layers)
+{
+  vtkNew<vtkPolyData> coarse;
+  coarse->ShallowCopy(surface);
+  const palpate::SurfaceMesh mesh(convert::pointsOf(coarse), convert::trianglesOf(coarse));
+  const palpate::GradedSurface graded =
+    palpate::gradeTowardsSupport(mesh, convert::boundaryTypesOf(coarse, false), layers);
+  convert::setSurface(surface, graded.points, graded.triangles);
+  interpolatePointData(coarse, graded, surface);
+  inheritCellData(coarse, graded.parentTriangle, surface);
 }
 } // namespace
 
 void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
-  if (this->NumberOfLevels == 0)
+  if (this->NumberOfLevels == 0 && this->SupportLayers == 0)
   {
     return;
   }
@@ -92,7 +129,11 @@ void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
     output->ShallowCopy(coarse);
     convert::setSurface(output, level.points, level.triangles);
     interpolatePointData(coarse, level, output);
-    inheritCellData(coarse, level, output);
+    inheritCellData(coarse, level.parentTriangle, output);
+  }
+  if (this->SupportLayers > 0)
+  {
+    grade(output, this->SupportLayers);
   }
   this->ReportProgress(1, "refine");
 }

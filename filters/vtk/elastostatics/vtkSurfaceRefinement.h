@@ -8,6 +8,10 @@
  * both ends of its edge are; other point data are the mean of the ends'. Triangles inherit cell data.
  * Green's functions, vertex areas, stiffnesses and results of contacts are dropped, as they belong to
  * the coarse mesh, and so are smooth patches that were found, not given, unless Subdivision is curved.
+ *
+ * SupportLayers then cut the triangles along the rim of the support into layers that get thinner towards
+ * it (palpate::gradeTowardsSupport), where stresses are singular and most of the error of Green's
+ * functions comes from. They leave the surface where it is.
  */
 
 #ifndef vtkSurfaceRefinement_h
@@ -28,6 +32,15 @@ public:
    */
   vtkSetClampMacro(NumberOfLevels, int, 0, 8);
   vtkGetMacro(NumberOfLevels, int);
+  ///@}
+
+  ///@{
+  /**
+   * Layers on either side of the support's rim, 0 to 9; the input then needs a point array
+   * `BoundaryType`. Default 0.
+   */
+  vtkSetClampMacro(SupportLayers, int, 0, 9);
+  vtkGetMacro(SupportLayers, int);
   ///@}
 
   ///@{
@@ -69,6 +82,7 @@ private:
   void operator=(const vtkSurfaceRefinement&) = delete;
 
   int NumberOfLevels = 1;
+  int SupportLayers = 0;
   int Subdivision = LOOP;
   double SmoothAngle = 30;
 };

@@ -16,8 +16,10 @@
 #include "vtkSmartPointer.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkToleranceGreensFunctions);
@@ -42,6 +44,7 @@ void vtkToleranceGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ErrorTolerance: " << this->ErrorTolerance << "\n"
      << indent << "MaximumNumberOfLevels: " << this->MaximumNumberOfLevels << "\n"
+     << indent << "MaximumNumberOfLayers: " << this->MaximumNumberOfLayers << "\n"
      << indent << "MaximumNumberOfVertices: " << this->MaximumNumberOfVertices << "\n"
      << indent << "Subdivision: " << this->Subdivision << "\n";
 }
@@ -57,30 +60,36 @@ void vtkToleranceGreensFunctions::Compute(
   }
   auto raw = vtkSmartPointer<vtkPolyData>::New();
   raw->ShallowCopy(input);
-  std::vector<SurfaceLevel> levels;
-  const auto at = [&](int level) -> const SurfaceLevel&
+  std::vector<vtkSmartPointer<vtkPolyData>> levels{ raw };
+  std::map<std::pair<int, int>, SurfaceLevel> meshes;
+  const auto at = [&](int level, int layers) -> const SurfaceLevel&
   {
     while (static_cast<int>(levels.size()) <= level)
     {
-      if (!levels.empty())
-      {
-        raw = this->Refined(raw);
-      }
-      levels.push_back({ raw, this->ModelOf(raw) });
+      levels.push_back(this->Refined(levels.back(), 1, 0));
     }
-    return levels[level];
+    const auto found = meshes.find({ level, layers });
+    if (found != meshes.end())
+    {
+      return found->second;
+    }
+    const auto surface = layers > 0 ? this->Refined(levels[level], 0, layers) : levels[level];
+    const auto key = std::make_pair(level, layers);
+    return meshes.emplace(key, SurfaceLevel{ surface, this->ModelOf(surface) }).first->second;
   };
-  vtkPolyData* computed = this->Kept(at(0).Model.fingerprint(),
+  vtkPolyData* computed = this->Kept(at(0, 0).Model.fingerprint(),
     [&](vtkPolyData* arrays)
     {
-      palpate::ToleranceResult result = this->Search([&](int level) { return at(level).Model; });
-      const palpate::ElasticModel& chosen = at(result.level).Model;
-      this->WarnOfVolume(at(0).Model, chosen, result.greens.info.diagnostics.warnings);
+      palpate::ToleranceResult result = this->Search(
+        [&](int level, int layers) { return at(level, layers).Model; });
+      const palpate::ElasticModel& chosen = at(result.level, result.layers).Model;
+      this->WarnOfVolume(at(0, 0).Model, chosen, result.greens.info.diagnostics.warnings);
       convert::setGreensFunctions(arrays, chosen, std::move(result.greens));
       this->Level = result.level;
+      this->Layers = result.layers;
       this->Steps = std::move(result.steps);
     });
-  const SurfaceLevel& level = at(this->Level);
+  const SurfaceLevel& level = at(this->Level, this->Layers);
   output->ShallowCopy(level.Surface);
   convert::removeMeshResults(output);
   convert::shareGreensFunctions(computed, output, level.Model.material().youngsModulus());
@@ -89,12 +98,13 @@ void vtkToleranceGreensFunctions::Compute(
 }
 
 palpate::ToleranceResult vtkToleranceGreensFunctions::Search(
-  const std::function<palpate::ElasticModel(int)>& level)
+  const std::function<palpate::ElasticModel(int, int)>& mesh)
 {
   palpate::ToleranceLimits limits;
   limits.levels = this->MaximumNumberOfLevels;
   limits.vertices = this->MaximumNumberOfVertices;
-  return palpate::computeToTolerance(level, this->ErrorTolerance, limits, this->OptionsFor(0),
+  limits.layers = this->MaximumNumberOfLevels > 0 ? this->MaximumNumberOfLayers : 0;
+  return palpate::computeToTolerance(mesh, this->ErrorTolerance, limits, this->OptionsFor(0),
     [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
 }
 
@@ -114,10 +124,13 @@ void vtkToleranceGreensFunctions::WarnOfVolume(const palpate::ElasticModel& give
     " subdivision, or give the surface finer");
 }
 
-vtkSmartPointer<vtkPolyData> vtkToleranceGreensFunctions::Refined(vtkPolyData* surface)
+vtkSmartPointer<vtkPolyData> vtkToleranceGreensFunctions::Refined(
+  vtkPolyData* surface, int levels, int layers)
 {
   vtkNew<vtkSurfaceRefinement> refinement;
   refinement->SetInputData(surface);
+  refinement->SetNumberOfLevels(levels);
+  refinement->SetSupportLayers(layers);
   refinement->SetSubdivision(this->Subdivision);
   refinement->SetSmoothAngle(this->GetSmoothAngle());
   refinement->Update();

@@ -6,8 +6,8 @@
  * @brief Green's functions that are as accurate as asked for, at the least cost
  *
  * Takes what vtkBoundaryElementGreensFunctions takes and chooses the rest: whether the surface is
- * refined, and how often (vtkSurfaceRefinement, by Subdivision); the tolerance of the integrals; single
- * or double precision.
+ * refined, how often, and with how many layers along the rim of its support (vtkSurfaceRefinement, by
+ * Subdivision); the tolerance of the integrals; single or double precision.
  * Levels are computed from the coarsest on, until the estimated error of displacements and contact
  * compliances, as 95 % of the loads do not exceed it, is at most ErrorTolerance
  * (palpate::computeToTolerance). The support gets smooth patches of its own (SupportPatch is on).
@@ -59,6 +59,15 @@ public:
 
   ///@{
   /**
+   * How many layers the surface may get along the rim of its support (vtkSurfaceRefinement's
+   * SupportLayers); none if it may not be refined. Default 3.
+   */
+  vtkSetClampMacro(MaximumNumberOfLayers, int, 0, 9);
+  vtkGetMacro(MaximumNumberOfLayers, int);
+  ///@}
+
+  ///@{
+  /**
    * What the surface stands for when it is refined. Default vtkSurfaceRefinement::FLAT: itself.
    */
   vtkSetClampMacro(Subdivision, int, vtkSurfaceRefinement::LOOP, vtkSurfaceRefinement::CURVED);
@@ -82,16 +91,17 @@ private:
   vtkToleranceGreensFunctions(const vtkToleranceGreensFunctions&) = delete;
   void operator=(const vtkToleranceGreensFunctions&) = delete;
 
-  vtkSmartPointer<vtkPolyData> Refined(vtkPolyData* surface);
-  palpate::ToleranceResult Search(const std::function<palpate::ElasticModel(int)>& level);
+  vtkSmartPointer<vtkPolyData> Refined(vtkPolyData* surface, int levels, int layers);
+  palpate::ToleranceResult Search(const std::function<palpate::ElasticModel(int, int)>& mesh);
   void WarnOfVolume(const palpate::ElasticModel& given, const palpate::ElasticModel& refined,
     std::vector<std::string>& warnings) const;
 
   double ErrorTolerance = 0.1;
   int MaximumNumberOfLevels = 4;
+  int MaximumNumberOfLayers = 3;
   int MaximumNumberOfVertices = 3000;
   int Subdivision = vtkSurfaceRefinement::FLAT;
-  int Level = 0;                  // that was chosen for the Green's functions that are kept
+  int Level = 0, Layers = 0;      // that were chosen for the Green's functions that are kept
   std::vector<std::string> Steps; // by which it was
 };
 
