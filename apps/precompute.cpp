@@ -41,7 +41,7 @@ struct Options {
               domain = "interior";
   double integrationTolerance = 1e-6, smoothAngle = 30;
   double tolerance = 0;  // of the error, 0 for none
-  int levels = 4, vertices = 3000;
+  int levels = 4, layers = 3, vertices = 3000;
   std::string subdivision = "flat";
   std::string element = "quadratic";
   double cellSize = 0, edgeLength = 0;
@@ -63,6 +63,13 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
           ->check(CLI::Range(1e-12, 1 - 1e-12))
           ->group(chosen);
   command.add_option("--max-levels", o.levels, "Refinements at most, 0 to keep the surface")
+      ->check(CLI::Range(0, 9))
+      ->needs(tolerance)
+      ->capture_default_str()
+      ->group(chosen);
+  command
+      .add_option("--max-layers", o.layers,
+                  "Layers along the rim of the support at most, 0 for none")
       ->check(CLI::Range(0, 9))
       ->needs(tolerance)
       ->capture_default_str()
@@ -284,6 +291,7 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> method(const Options& o) {
     auto chooser = vtkSmartPointer<vtkToleranceGreensFunctions>::New();
     chooser->SetErrorTolerance(o.tolerance);
     chooser->SetMaximumNumberOfLevels(o.levels);
+    chooser->SetMaximumNumberOfLayers(o.layers);
     chooser->SetMaximumNumberOfVertices(o.vertices);
     chooser->SetSubdivision(static_cast<int>(subdivisionNamed(o.subdivision)));
     filter = chooser;

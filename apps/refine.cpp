@@ -18,7 +18,7 @@ namespace palpate::app {
 void addRefine(CLI::App& program) {
   struct Options {
     std::string input, output, subdivision = "loop";
-    int levels = 1;
+    int levels = 1, layers = 0;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("refine", "Subdivide a surface");
@@ -30,6 +30,11 @@ void addRefine(CLI::App& program) {
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
   addSubdivision(*command, options->subdivision);
+  command
+      ->add_option("--support-layers", options->layers,
+                   "Layers of triangles along the rim of the support, each a quarter as wide")
+      ->check(CLI::Range(0, 9))
+      ->capture_default_str();
   command->footer(
       "A new vertex is fixed if both ends of its edge are.\n"
       "  palpate refine data/kidney.vtp kidney.vtp --levels 2");
@@ -37,6 +42,7 @@ void addRefine(CLI::App& program) {
     vtkNew<vtkSurfaceRefinement> filter;
     filter->SetInputData(readSurface(options->input));
     filter->SetNumberOfLevels(options->levels);
+    filter->SetSupportLayers(options->layers);
     filter->SetSubdivision(static_cast<int>(subdivisionNamed(options->subdivision)));
     const auto fine = run(filter);
     writeSurface(fine, options->output);

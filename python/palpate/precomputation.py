@@ -47,7 +47,7 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
                tolerance=None, columns=None, domain="interior", reciprocal=True,
                smooth_angle=30.0, progress=None, *, collocation="averaged", patch_columns=False,
                threads=0, solver="direct", integration_tolerance=None, support_patch=None,
-               estimate_error=None, max_levels=None, max_vertices=None, subdivision=None,
+               estimate_error=None, max_levels=None, max_layers=None, max_vertices=None, subdivision=None,
                volume=None, element="quadratic", cell_size=0.0, probes=None, thickness=None,
                clamped=True, edge_length=None):
     """Compute the Green's functions of an elastic body from its surface.
@@ -118,8 +118,9 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
         for small surfaces on a finer one (filled anew, but not with several materials): the field arrays
         `ErrorEstimate`, `ContactErrorEstimate` and so on, -1 where that fails. Of shells of up to a
         thousand vertices, where it is not: on four times as many, in sixteen times the time.
-    max_levels, max_vertices : int, optional
-        How often (4), and up to how many vertices (3000), a `tolerance` may refine the surface.
+    max_levels, max_layers, max_vertices : int, optional
+        How often (4), with how many layers along the rim of the support (3, see `refine`), and up to how
+        many vertices (3000), a `tolerance` may refine the surface.
     subdivision : {"loop", "flat", "curved"}, optional
         As in `refine`, how a `tolerance` refines; flat by default.
     volume : vtkUnstructuredGrid, optional
@@ -183,7 +184,7 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
         precision=precision, tolerance=tolerance, domain=domain, smooth_angle=smooth_angle,
         collocation=collocation, patch_columns=patch_columns, threads=threads, solver=solver,
         integration_tolerance=integration_tolerance, support_patch=support_patch,
-        estimate_error=estimate_error, max_levels=max_levels, max_vertices=max_vertices,
+        estimate_error=estimate_error, max_levels=max_levels, max_layers=max_layers, max_vertices=max_vertices,
         subdivision=subdivision, volume=volume, element=element, cell_size=cell_size, probes=probes,
         thickness=thickness, clamped=clamped, edge_length=edge_length)
     refuse_foreign(method, settings)
@@ -313,12 +314,12 @@ def finite_elements(volume, element, cell_size, probes, domain, smooth_angle, pa
 
 def boundary_elements(columns, precision, tolerance, domain, smooth_angle, collocation, patch_columns,
                       solver, integration_tolerance, support_patch, estimate_error, max_levels,
-                      max_vertices, subdivision, **_):
+                      max_layers, max_vertices, subdivision, **_):
     """The filter of boundary elements, or the one that chooses by tolerance, but for its surface."""
     if tolerance is None:
-        if not (max_levels is None and max_vertices is None and subdivision is None):
-            raise Error("max_levels, max_vertices and subdivision go with a tolerance: give one, or "
-                        "refine the surface yourself")
+        if any(limit is not None for limit in (max_levels, max_layers, max_vertices, subdivision)):
+            raise Error("max_levels, max_layers, max_vertices and subdivision go with a tolerance: give "
+                        "one, or refine the surface yourself")
         bem = vtkBoundaryElementGreensFunctions()
         bem.SetPrecision(choice(precision, PRECISIONS, "precision"))
         bem.SetSolver(choice(solver, {"direct": 0, "iterative": 1}, "solver"))
@@ -334,6 +335,8 @@ def boundary_elements(columns, precision, tolerance, domain, smooth_angle, collo
         bem.SetErrorTolerance(number(tolerance, "tolerance"))
         if max_levels is not None:
             bem.SetMaximumNumberOfLevels(whole_number(max_levels, "max_levels", 9))
+        if max_layers is not None:
+            bem.SetMaximumNumberOfLayers(whole_number(max_layers, "max_layers", 9))
         if max_vertices is not None:
             bem.SetMaximumNumberOfVertices(whole_number(max_vertices, "max_vertices", 100000))
         if subdivision is not None:

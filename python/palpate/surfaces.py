@@ -110,7 +110,7 @@ def on_original(data):
     return run(algorithm)
 
 
-def refine(surface, levels=1, subdivision="loop"):
+def refine(surface, levels=1, subdivision="loop", support_layers=0):
     """Subdivide a closed surface, with its boundary types and other data.
 
     Parameters
@@ -123,6 +123,9 @@ def refine(surface, levels=1, subdivision="loop"):
         What the surface stands for: the control mesh of a smooth one, towards which its vertices move
         (Loop 1987); itself; or a surface through its vertices, smooth but for edges sharper than 30
         degrees (Vlachos et al. 2001).
+    support_layers : int
+        How many layers, each a quarter as wide as the one before, triangles are then cut into along the
+        rim of the support, where stresses are singular: 0 to 9. The surface needs `BoundaryType`.
 
     Returns
     -------
@@ -144,6 +147,7 @@ def refine(surface, levels=1, subdivision="loop"):
     refinement.SetInputData(surface_of(surface))
     refinement.SetNumberOfLevels(whole_number(levels, "levels", 8))
     refinement.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
+    refinement.SetSupportLayers(whole_number(support_layers, "support_layers", 9))
     return run(refinement)
 
 

@@ -14,48 +14,15 @@
 #include <vector>
 
 #include "greens/error_estimate.h"
-#include "mesh/loop_subdivision.h"
-#include "mesh/smooth_patches.h"
-#include "model/graded_model.h"
-#include "model/support.h"
-#include "support/data_models.h"
+#include "support/loop_hierarchy.h"
 #include "support/problems.h"
 
 namespace palpate::test {
 namespace {
 
-/// Loop's levels of a control mesh from data/, the support a patch of its own.
-class Levels {
- public:
-  explicit Levels(const std::string& name) : base_(readDataModel(name)) {
-    meshes_.push_back({base_.shape, base_.boundaryTypes});
-  }
-
-  ElasticModel operator()(int level, int layers = 0) {
-    while (static_cast<int>(meshes_.size()) <= level) {
-      const Mesh& last = meshes_.back();
-      const SubdivisionLevel next = subdivideLoop(*last.shape.mesh());
-      meshes_.push_back(
-          {{next.points, next.triangles}, refineBoundaryTypes(next, last.boundaryTypes)});
-    }
-    const auto mesh = meshes_[level].shape.mesh();
-    const BoundaryConditions conditions(meshes_[level].boundaryTypes);
-    const ElasticModel model(mesh, Material(base_.youngsModulus, base_.poissonRatio), conditions,
-                             splitAtSupport(*mesh, conditions, findSmoothPatches(*mesh, 30)));
-    return layers > 0 ? gradedModel(model, layers) : model;
-  }
-
- private:
-  struct Mesh {
-    Shape shape;
-    std::vector<unsigned char> boundaryTypes;
-  };
-  DataModel base_;
-  std::vector<Mesh> meshes_;
-};
-
 /// Errors of a level by its difference from the next, continued with the order 5/4.
-LoadDifferences errorsOf(Levels& levels, int level, const GreensFunctions& greens, double length) {
+LoadDifferences errorsOf(LoopHierarchy& levels, int level, const GreensFunctions& greens,
+                         double length) {
   const ElasticModel model = levels(level), next = levels(level + 1);
   BoundaryElementOptions options;
   options.precision = next.mesh().vertexCount() < 2400 ? Precision::Float : Precision::Double;
@@ -74,7 +41,7 @@ struct Met {
 
 /// How many of forty loads err by no more than was asked for.
 Met loadsThatMeet(const std::string& name, double tolerance) {
-  Levels levels(name);
+  LoopHierarchy levels(name);
   ToleranceLimits limits;
   limits.levels = 3;
   limits.vertices = 700;
@@ -108,7 +75,7 @@ TEST(Tolerances, AreMetByNineteenOfTwentyLoads) {
 }
 
 TEST(ToleranceSearch, TakesTheCoarsestLevelThatMeetsIt) {
-  Levels levels("nodule");
+  LoopHierarchy levels("nodule");
   std::vector<int> asked;
   const ToleranceResult result = computeToTolerance(
       [&](int level, int layers) {
@@ -123,7 +90,7 @@ TEST(ToleranceSearch, TakesTheCoarsestLevelThatMeetsIt) {
 }
 
 TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
-  Levels levels("nodule");
+  LoopHierarchy levels("nodule");
   const auto refusal = [&](double tolerance, ToleranceLimits limits) {
     try {
       computeToTolerance(std::ref(levels), tolerance, limits, {});
@@ -143,18 +110,18 @@ TEST(ToleranceSearch, RefusesWithTheErrorWithinReach) {
 }
 
 TEST(ToleranceSearch, RefusesASurfaceThatIsLargerThanAllowed) {
-  Levels levels("nodule");
+  LoopHierarchy levels("nodule");
   EXPECT_THROW(computeToTolerance(std::ref(levels), 0.5, {0, 30}, {}), std::runtime_error);
 }
 
 TEST(ToleranceSearch, RefusesImpossibleTolerances) {
-  Levels levels("nodule");
+  LoopHierarchy levels("nodule");
   for (double tolerance : {0.0, -1.0, 1.0, std::nan("")})
     EXPECT_THROW(computeToTolerance(std::ref(levels), tolerance, {}, {}), std::invalid_argument);
 }
 
 TEST(ToleranceSearch, CanBeAborted) {
-  Levels levels("kidney");
+  LoopHierarchy levels("kidney");
   EXPECT_THROW(computeToTolerance(std::ref(levels), 0.05, {}, {},
                                   [](double fraction, const char*) { return fraction < 0.5; }),
                Aborted);
