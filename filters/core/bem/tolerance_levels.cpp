@@ -10,9 +10,12 @@
 #include <utility>
 
 #include "mesh/rim_grading.h"
+#include "model/graded_model.h"
 
 namespace palpate {
 namespace {
+
+constexpr int kLeastCoarsened = 20;  // vertices of the level -1
 
 void scale(LoadDifferences& differences, double factor) {
   for (std::vector<double>* list : {&differences.field, &differences.contact})
@@ -40,11 +43,28 @@ ToleranceLevels::ToleranceLevels(const MeshHierarchy& hierarchy, int mostVertice
                                  BoundaryElementOptions options)
     : hierarchy_(hierarchy), mostVertices_(mostVertices), options_(std::move(options)) {}
 
+bool ToleranceLevels::hasCoarsened() {
+  if (!isCoarsened_) {
+    isCoarsened_ = true;
+    try {
+      coarsened_ = coarsenedModel(at({0, 0}).model, kLeastCoarsened);
+    } catch (const std::runtime_error&) {
+      // There is no OpenMesh.
+    }
+  }
+  return coarsened_.has_value();
+}
+
+ElasticModel ToleranceLevels::model(MeshSetting setting) const {
+  if (setting.level >= 0) return hierarchy_(setting.level, setting.layers);
+  return setting.layers > 0 ? gradedModel(coarsened_->model, setting.layers) : coarsened_->model;
+}
+
 const ToleranceLevels::Solved& ToleranceLevels::solve(MeshSetting setting,
                                                       const Progress& progress) {
   const auto found = solved_.find(setting);
   if (found != solved_.end()) return found->second;
-  const ElasticModel model = hierarchy_(setting.level, setting.layers);
+  const ElasticModel model = this->model(setting);
   if (model.mesh().vertexCount() > mostVertices_)
     throw std::runtime_error("the surface has " + std::to_string(model.mesh().vertexCount()) +
                              " vertices, more than the " + std::to_string(mostVertices_) +
@@ -75,9 +95,15 @@ LoadDifferences ToleranceLevels::differences(MeshSetting finer, MeshSetting coar
                                              const SpreadLoads& loads) const {
   const Solved &fine = at(finer), &coarse = at(coarser), &shared = at({coarser.level, 0});
   std::vector<int> vertices(coarse.vertices(), -1);
-  for (int v = 0; v < shared.vertices(); ++v) vertices[v] = v;
+  const bool isCoarsened = coarser.level < 0 && finer.level >= 0;
+  for (int v = 0; v < shared.vertices(); ++v)
+    vertices[v] = isCoarsened ? coarsened_->vertices[v] : v;
   return compareUnderLoads(*fine.result.view(), fine.model.mesh(), *coarse.result.view(),
                            coarse.model.mesh(), vertices, loads);
+}
+
+double ToleranceLevels::edgeRatio(int level) const {
+  return std::sqrt(double(at({level, 0}).vertices()) / at({level - 1, 0}).vertices());
 }
 
 LoadDifferences ToleranceLevels::rimErrors(MeshSetting layered, const SpreadLoads& loads) const {
@@ -91,13 +117,13 @@ ErrorEstimate ToleranceLevels::estimateByParts(MeshSetting setting) const {
   const SpreadLoads spread = loads(before.level);
   LoadDifferences errors = differences(setting, before, spread);
   const LoadDifferences rim = rimErrors(layeredBefore(setting), spread);
-  const double left = widthOf(setting.layers) / kEdgeGrowth;
-  // Between the levels the rest of the error differs by (4 - 1) times what is left of it, the rim's
-  // part by (2 - 1) times.
+  const double ratio = edgeRatio(setting.level), square = ratio * ratio;
+  const double left = widthOf(setting.layers) / ratio;
+  // Between levels the rest of the error differs by (ratio^2 - 1) times what is left of it, the
+  // rim's part by (ratio - 1) times.
   const auto combine = [&](std::vector<double>& error, const std::vector<double>& ofRim) {
     for (std::size_t load = 0; load < error.size(); ++load)
-      error[load] =
-          (error[load] + (kLevelGrowth - kEdgeGrowth) * left * ofRim[load]) / (kLevelGrowth - 1);
+      error[load] = (error[load] + (square - ratio) * left * ofRim[load]) / (square - 1);
   };
   combine(errors.field, rim.field);
   combine(errors.contact, rim.contact);

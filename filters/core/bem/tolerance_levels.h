@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "bem/tolerance_search.h"
@@ -16,6 +17,7 @@ constexpr double kEdgeGrowth = 2;   ///< edges of a level over those of the next
 constexpr double kLevelGrowth = 4;  ///< vertices of the next over those of a level
 
 /// A mesh of a hierarchy: how often refined, then how many layers along the rim of its support.
+/// The level -1 is that of a coarsened mesh (coarsenedModel).
 struct MeshSetting {
   int level = 0, layers = 0;
 
@@ -26,8 +28,8 @@ struct MeshSetting {
 
 /// Meshes of a hierarchy, each solved once, and what they tell of each other's errors. These have
 /// two parts: that of the rim of the support, where stresses are singular, goes with the width of
-/// the triangles there, which a level halves and a layer cuts fourfold; that of all else is cut
-/// fourfold by a level.
+/// the triangles there, which a level halves and a layer cuts fourfold; the rest goes with the
+/// square of the edges, which a level halves.
 class ToleranceLevels {
  public:
   /// @param options  of all; double precision takes the place of single where a system asks for it.
@@ -42,8 +44,11 @@ class ToleranceLevels {
   };
 
   bool isAllowed(MeshSetting setting) const {
-    return hierarchy_(setting.level, setting.layers).mesh().vertexCount() <= mostVertices_;
+    return model(setting).mesh().vertexCount() <= mostVertices_;
   }
+  /// Whether the level 0, which is solved, can be coarsened; the level -1 is only to be asked for
+  /// if so.
+  bool hasCoarsened();
   /// Solves it if it is not yet.
   /// @throws std::runtime_error if the mesh has more vertices than allowed; as
   ///         computeBoundaryElementGreensFunctions.
@@ -62,6 +67,9 @@ class ToleranceLevels {
   LoadDifferences differences(MeshSetting finer, MeshSetting coarser,
                               const SpreadLoads& loads) const;
 
+  /// Edges of the level before over a level's.
+  double edgeRatio(int level) const;
+
   /// A level's loads, from the level without layers.
   SpreadLoads loads(int level) const { return errorLoads(at({level, 0}).model); }
 
@@ -72,10 +80,14 @@ class ToleranceLevels {
   ErrorEstimate estimateByParts(MeshSetting setting) const;
 
  private:
+  ElasticModel model(MeshSetting setting) const;
+
   const MeshHierarchy& hierarchy_;
   int mostVertices_;
   BoundaryElementOptions options_;
   std::map<MeshSetting, Solved> solved_;
+  std::optional<OtherMesh> coarsened_;
+  bool isCoarsened_ = false;  ///< whether that was tried
 };
 
 /// What 95 % of loads do not exceed in displacements and compliances.

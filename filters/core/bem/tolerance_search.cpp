@@ -19,9 +19,10 @@ namespace {
 constexpr double kShareOfOthers = 0.01;  // of the tolerance, for integrals and arithmetic
 constexpr double kFloatTolerance = 1e-3;
 constexpr double kLeastIntegration = 1e-6, kMostIntegration = 1e-3;
-constexpr double kMargin = 1.2;     // of estimates that are relied on
-constexpr double kDoubtful = 2;     // predictions may be wrong by this factor
-constexpr int kLeastVertices = 50;  // of a level that tells of the next one's error
+constexpr double kMargin = 1.2;      // of estimates that are relied on
+constexpr double kDoubtful = 2;      // predictions may be wrong by this factor
+constexpr int kLeastVertices = 50;   // of a level that tells of the next one's error
+constexpr int kLeastWithParts = 20;  // of one that also shows its parts
 constexpr int kSmall = 200;  // vertices; below, the next level tells of the error, and costs little
 constexpr double kLevelCost = 64;
 constexpr double kForeseen = 0.9;  // share of the progress; the rest is left for one level more
@@ -77,7 +78,7 @@ class Search {
     for (int k = 0;; ++k) {
       solveUpTo(k);
       if (judge({k, 0}, estimateLevel(k))) return result();
-      if (mayHaveLayers(k)) return chooseLayers(k);
+      if (vertices({k, 0}) >= kSmall && showsParts(k)) return chooseLayers(k);
       requireReachable(k);
       const double missing = std::log2(kMargin * best_.error / tolerance_) / order_;
       expected_ = k + std::max(1, static_cast<int>(std::ceil(missing)));
@@ -149,15 +150,11 @@ class Search {
 
   ErrorEstimate estimateLevel(int level) {
     const bool isSmall = vertices({level, 0}) < kSmall;
+    if (showsParts(level)) return levels_.estimateByParts({level, 0});
     if (isSmall && mayRefine(level)) return estimateByFiner(level);
-    if (mayHaveLayers(level)) return levels_.estimateByParts({level, 0});
     if (!isSmall && hasCoarser(level)) return estimateByCoarser(level);
     return estimateError(levels_.at({level, 0}).model, estimatedMethod(levels_.options()),
                          *greens(level), progress_.part(done_, done_));
-  }
-
-  double edgeRatio(int finer) const {
-    return std::sqrt(double(vertices({finer, 0})) / vertices({finer - 1, 0}));
   }
 
   LoadDifferences differences(int finer, const SpreadLoads& loads) const {
@@ -167,13 +164,13 @@ class Search {
   ErrorEstimate estimateByFiner(int level) {
     solveUpTo(level + 1);
     order_ = discretizationOrder(*greens(level + 1));
-    const double gain = std::pow(edgeRatio(level + 1), order_);
+    const double gain = std::pow(levels_.edgeRatio(level + 1), order_);
     return estimateBy(level + 1, levels_.loads(level), gain / (gain - 1), level);
   }
 
   ErrorEstimate estimateByCoarser(int level) {
     order_ = level < 2 ? discretizationOrder(*greens(level)) : observedOrder(level);
-    const double gain = std::pow(edgeRatio(level), order_);
+    const double gain = std::pow(levels_.edgeRatio(level), order_);
     return estimateBy(level, levels_.loads(level - 1), 1 / (gain - 1), level);
   }
 
@@ -189,25 +186,33 @@ class Search {
     const SpreadLoads loads = levels_.loads(fine - 2);
     const double before = LoadDifferences::mean(differences(fine - 1, loads).field),
                  after = LoadDifferences::mean(differences(fine, loads).field);
-    return std::clamp(std::log(before / after) / std::log(edgeRatio(fine)), 0.5, 2.0);
+    return std::clamp(std::log(before / after) / std::log(levels_.edgeRatio(fine)), 0.5, 2.0);
   }
 
-  /// Whether layers can be chosen from a level on: there is a rim, and a level before to see on
-  /// what they gain.
-  bool mayHaveLayers(int level) {
-    if (limits_.layers == 0 || vertices({level, 0}) < kSmall || !hasCoarser(level)) return false;
-    const MeshSetting layered{level - 1, 1};
+  /// Whether the level before can show the parts of a level's error: it is large enough, and there
+  /// is a rim.
+  bool showsParts(int level) {
+    const MeshSetting before{level - 1, 0}, layered{level - 1, 1};
+    if (limits_.layers == 0) return false;
+    if (level == 0 ? !levels_.hasCoarsened() : vertices(before) < kLeastWithParts) return false;
     if (!levels_.isAllowed(layered)) return false;
-    levels_.solve(layered, nextPart(1 / kLevelCost));
-    return vertices(layered) > vertices({level - 1, 0});
+    try {
+      levels_.solve(before, nextPart(1 / kLevelCost));
+      levels_.solve(layered, nextPart(1 / kLevelCost));
+    } catch (const std::runtime_error& failure) {
+      if (level > 0 || dynamic_cast<const Aborted*>(&failure)) throw;
+      return false;  // what was coarsened is singular
+    }
+    return vertices(layered) > vertices(before);
   }
 
   /// Tries meshes, the smallest that should meet the tolerance first.
   ToleranceResult chooseLayers(int level) {
     const MeshSetting plain{level - 1, 0}, layered{level - 1, 1};
-    const double rim = mostOf(levels_.rimErrors(layered, levels_.loads(level - 1))) / kEdgeGrowth;
+    const double ratio = levels_.edgeRatio(level),
+                 rim = mostOf(levels_.rimErrors(layered, levels_.loads(level - 1))) / ratio;
     ErrorParts parts = ErrorParts{level, rim, 0}.observed({level, 0}, best_.error);
-    const double layer = kEdgeGrowth * (vertices(layered) - vertices(plain));
+    const double layer = ratio * (vertices(layered) - vertices(plain));
     bool knowsRest = false;
     for (;;) {
       MeshSetting next = choose(candidates(parts, level, layer));

@@ -34,15 +34,14 @@ struct ToleranceResult {
 /// Green's functions whose estimated error (ErrorEstimate::most: that of displacements and of
 /// contact compliances, which 95 % of the loads do not exceed) is by a fifth within a tolerance, on
 /// the smallest mesh of a hierarchy that meets it.
-/// - Levels are solved from the coarsest on, as each costs up to 64 times the one before. The error
-///   of one below 200 vertices is that of its difference from the next; of others, from the one
-///   before, by the order that three levels show, where there are three; estimateError serves where
-///   there is no such level.
-/// - From 200 vertices on, layers along the rim of the support are chosen with the levels. What
-/// they
-///   gain is seen on the level before, where it costs little, and tells the rim's part of the error
-///   from the rest (ToleranceLevels); of the meshes that should meet the tolerance the smallest is
-///   solved, and judged by the level before with as many layers.
+/// - Levels are solved from the coarsest on, as each costs up to 64 times the one before. Their
+///   error is told by the level before, or by a coarsened mesh: what layers along the rim of the
+///   support gain there, where they cost little, tells the rim's part from the rest
+///   (ToleranceLevels). Without layers or a rim, the error of one below 200 vertices is that of its
+///   difference from the next; of others, from the one before, by the order that three levels show,
+///   where there are three; estimateError serves where there is no such level.
+/// - From 200 vertices on, layers are chosen with the levels: of the meshes that should meet the
+///   tolerance the smallest is solved, and judged by the level before with as many layers.
 /// - Integrals and arithmetic take a hundredth of the tolerance: single precision from 1e-3 on,
 ///   where the system's condition allows.
 /// @param tolerance relative, above 0 and below 1.
