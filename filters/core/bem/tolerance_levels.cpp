@@ -103,7 +103,7 @@ LoadDifferences ToleranceLevels::differences(MeshSetting finer, MeshSetting coar
 }
 
 double ToleranceLevels::edgeRatio(int level) const {
-  return std::sqrt(double(at({level, 0}).vertices()) / at({level - 1, 0}).vertices());
+  return level > 0 ? kEdgeGrowth : coarsened_->ratio;
 }
 
 LoadDifferences ToleranceLevels::rimErrors(MeshSetting layered, const SpreadLoads& loads) const {

@@ -50,11 +50,11 @@ struct ErrorParts {
     return rim * std::pow(kLayerShare, setting.layers) / edges + rest / (edges * edges);
   }
 
-  /// With a rest that makes them at least the error of a mesh.
+  /// At the level of a mesh whose error is known; of several there the largest rest.
   ErrorParts observed(MeshSetting setting, double error) const {
-    const double edges = std::pow(kEdgeGrowth, setting.level - level);
-    const double left = rim * std::pow(kLayerShare, setting.layers) / edges;
-    return {level, rim, std::max((error - left) * edges * edges, rest)};
+    const double edges = std::pow(kEdgeGrowth, setting.level - level), there = rim / edges;
+    const double left = there * std::pow(kLayerShare, setting.layers);
+    return {setting.level, there, std::max(error - left, setting.level == level ? rest : 0.0)};
   }
 };
 
@@ -78,7 +78,7 @@ class Search {
     for (int k = 0;; ++k) {
       solveUpTo(k);
       if (judge({k, 0}, estimateLevel(k))) return result();
-      if (vertices({k, 0}) >= kSmall && showsParts(k)) return chooseLayers(k);
+      if (showsParts(k)) return chooseLayers(k);
       requireReachable(k);
       const double missing = std::log2(kMargin * best_.error / tolerance_) / order_;
       expected_ = k + std::max(1, static_cast<int>(std::ceil(missing)));
@@ -213,30 +213,34 @@ class Search {
                  rim = mostOf(levels_.rimErrors(layered, levels_.loads(level - 1))) / ratio;
     ErrorParts parts = ErrorParts{level, rim, 0}.observed({level, 0}, best_.error);
     const double layer = ratio * (vertices(layered) - vertices(plain));
-    bool knowsRest = false;
+    bool isProbed = false;
     for (;;) {
-      MeshSetting next = choose(candidates(parts, level, layer));
-      // A level with layers tells the rest of the error better than one without.
-      if (next.level > level && !knowsRest && levels_.isAllowed({level, 1})) next = {level, 1};
-      knowsRest = true;
-      if (!levels_.isAllowed(next)) {
-        tried_.insert(next);
+      const std::vector<Candidate> all = candidates(parts, level, layer);
+      const Candidate* next = choose(all);
+      if (!isProbed) next = probe(all, next);
+      isProbed = true;
+      if (!next) refuse(bestOf(all));
+      const MeshSetting setting = next->setting;
+      if (!levels_.isAllowed(setting)) {
+        tried_.insert(setting);
         continue;
       }
-      levels_.solveWithCoarser(next, nextPart(kForeseen));
-      const ErrorEstimate estimate = levels_.estimateByParts(next);
-      if (judge(next, estimate)) return result();
-      parts = parts.observed(next, estimate.most());
+      levels_.solveWithCoarser(setting, nextPart(kForeseen));
+      const ErrorEstimate estimate = levels_.estimateByParts(setting);
+      if (judge(setting, estimate)) return result();
+      parts = parts.observed(setting, estimate.most());
     }
   }
 
-  /// What the limits allow from a level on and was not tried.
+  /// What the limits allow from a level on and was not tried; no small level before the last.
   /// @param layer  vertices of a layer there.
   std::vector<Candidate> candidates(const ErrorParts& parts, int level, double layer) const {
     std::vector<Candidate> all;
     double plain = vertices({level, 0});
     for (int k = level; k <= limits_.levels; ++k) {
-      for (int layers = 0; layers <= limits_.layers; ++layers) {
+      const bool isPassed =
+          plain < kSmall && k < limits_.levels && kLevelGrowth * plain <= limits_.vertices;
+      for (int layers = 0; !isPassed && layers <= limits_.layers; ++layers) {
         const MeshSetting setting{k, layers};
         const double count = plain + layers * layer;
         if (count <= limits_.vertices && tried_.count(setting) == 0)
@@ -248,20 +252,33 @@ class Search {
     return all;
   }
 
+  /// The one with the least error that is expected, if that is below the best's so far.
+  const Candidate* bestOf(const std::vector<Candidate>& all) const {
+    const auto best = std::min_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+    return best != all.end() && best->error < best_.error ? &*best : nullptr;
+  }
+
   /// The smallest that should meet the tolerance, or the best if it may.
-  MeshSetting choose(const std::vector<Candidate>& all) {
-    const Candidate *smallest = nullptr, *best = nullptr;
-    for (const Candidate& candidate : all) {
+  const Candidate* choose(const std::vector<Candidate>& all) const {
+    const Candidate* smallest = nullptr;
+    for (const Candidate& candidate : all)
       if (kMargin * candidate.error <= tolerance_ &&
           (!smallest || candidate.vertices < smallest->vertices))
         smallest = &candidate;
-      if (!best || candidate.error < best->error) best = &candidate;
-    }
-    if (smallest) return smallest->setting;
-    const bool gains = best && best->error < best_.error;
-    if (!gains) refuse(nullptr);
-    if (best->error > kDoubtful * tolerance_) refuse(best);
-    return best->setting;
+    if (smallest) return smallest;
+    const Candidate* best = bestOf(all);
+    return best && best->error <= kDoubtful * tolerance_ ? best : nullptr;
+  }
+
+  /// Before a level is left or all are refused, what tells most of them at little cost: a layer on
+  /// the first.
+  const Candidate* probe(const std::vector<Candidate>& all, const Candidate* next) const {
+    if (all.empty() || (next && next->setting.level == all.front().setting.level)) return next;
+    for (const Candidate& candidate : all)
+      if (candidate.setting.level == all.front().setting.level && candidate.setting.layers == 1)
+        return &candidate;
+    return next;
   }
 
   std::string describe(MeshSetting setting, double error) const {
