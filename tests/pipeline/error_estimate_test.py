@@ -104,6 +104,33 @@ class Tolerance(unittest.TestCase):
         self.assertTrue((palpate.greens_functions(algorithm.GetOutput())
                          == palpate.greens_functions(byhand)).all())
 
+    def test_takes_layers_along_the_rim_of_the_support_as_refined_by_hand(self):
+        algorithm = chooser(0.05)
+        algorithm.Update()
+        model = algorithm.GetOutput()
+        self.assertIn("with 1 layer along the rim of the support", palpate.array(model, "ToleranceSteps")[-1])
+        surface = palpate.refine(palpate.read(KIDNEY), 2, support_layers=1)
+        self.assertTrue((points_of(model) == points_of(surface)).all())
+        byhand = palpate.precompute(surface, None, None, precision="float", integration_tolerance=5e-4,
+                                    support_patch=True)
+        self.assertTrue((palpate.greens_functions(model) == palpate.greens_functions(byhand)).all())
+        without = palpate.precompute(palpate.read(KIDNEY), None, None, tolerance=0.05, max_layers=0,
+                                     subdivision="loop")
+        self.assertNotIn("layer", " ".join(palpate.array(without, "ToleranceSteps")))
+
+    def test_layers_carry_data_and_keep_the_surface(self):
+        surface = cube(2)
+        fixed = points_of(surface)[:, 2] == 0
+        surface.GetPointData().AddArray(as_vtk(fixed, "BoundaryType", 1, np.uint8))
+        surface.GetPointData().AddArray(as_vtk(points_of(surface), "Place", 3))
+        layered = palpate.refine(surface, 0, "flat", support_layers=2)
+        self.assertGreater(layered.GetNumberOfPoints(), surface.GetNumberOfPoints())
+        self.assertAlmostEqual(volume(layered), volume(surface), delta=1e-12)
+        self.assertLess(abs(palpate.array(layered, "Place") - points_of(layered)).max(), 1e-12)
+        self.assertTrue((palpate.array(layered, "BoundaryType") == (points_of(layered)[:, 2] == 0)).all())
+        with self.assertRaisesRegex(palpate.Error, "BoundaryType"):
+            palpate.refine(cube(2), 0, "flat", support_layers=1)
+
     def test_keeps_data_on_the_surface(self):
         surface = copy_of(palpate.read(KIDNEY))
         tag = np.arange(surface.GetNumberOfPoints(), dtype=float)
@@ -155,7 +182,8 @@ class Tolerance(unittest.TestCase):
                                subdivision="loop")
 
     def test_limits_without_a_tolerance_are_refused(self):
-        for settings in ({"max_levels": 1}, {"max_vertices": 100}, {"subdivision": "flat"}):
+        for settings in ({"max_levels": 1}, {"max_layers": 1}, {"max_vertices": 100},
+                         {"subdivision": "flat"}):
             with self.assertRaisesRegex(palpate.Error, "go with a tolerance"):
                 palpate.precompute(palpate.read(KIDNEY), None, None, **settings)
 
