@@ -21,6 +21,61 @@
 namespace palpate::test {
 namespace {
 
+struct Met {
+  int loads, met;
+};
+
+/// Errors of a level by its difference from the next, continued with the order 5/4.
+LoadDifferences errorsOfLevel(LoopHierarchy& levels, int level, const GreensFunctions& greens,
+                              double length) {
+  const ElasticModel model = levels(level), next = levels(level + 1);
+  BoundaryElementOptions options;
+  options.precision = next.mesh().vertexCount() < 2400 ? Precision::Float : Precision::Double;
+  const auto finer = computeGreens(next, options);
+  SpreadLoads loads = chooseSpreadLoads(model.mesh(), model.conditions(), 40);
+  loads.length = length;
+  LoadDifferences errors = compareUnderLoads(*finer, next.mesh(), greens, model.mesh(), loads);
+  for (std::vector<double>* list : {&errors.field, &errors.contact})
+    for (double& error : *list) error /= 1 - std::pow(2, -1.25);
+  return errors;
+}
+
+/// How many of forty loads err by no more than was asked for, where no layers are allowed.
+Met loadsThatMeetByLevels(const std::string& name, double tolerance) {
+  LoopHierarchy levels(name);
+  ToleranceLimits limits;
+  limits.levels = 3;
+  limits.vertices = 700;
+  limits.layers = 0;
+  ToleranceResult result = computeToTolerance(std::ref(levels), tolerance, limits, {});
+  const ErrorEstimate estimate = result.greens.info.diagnostics.error;
+  EXPECT_LE(estimate.most(), tolerance) << name;
+  const LoadDifferences errors =
+      errorsOfLevel(levels, result.level, *result.greens.take(), estimate.loadLength);
+  Met met{static_cast<int>(errors.field.size()), 0};
+  for (int i = 0; i < met.loads; ++i)
+    met.met += errors.field[i] <= tolerance && errors.contact[i] <= tolerance;
+  return met;
+}
+
+/// Of all loads on the four models; of each model's own the spatula's blade, which locks, misses a
+/// tenth.
+TEST(Tolerances, AreMetByNineteenOfTwentyLoadsOfLevelsAlone) {
+  int loads = 0, met = 0;
+  for (const auto& [name, tolerance] :
+       std::vector<std::pair<std::string, double>>{{"nodule", 0.1},
+                                                   {"nodule", 0.05},
+                                                   {"kidney", 0.1},
+                                                   {"spatula", 0.1},
+                                                   {"banana_seat", 0.1}}) {
+    const Met own = loadsThatMeetByLevels(name, tolerance);
+    EXPECT_GE(own.met, 0.85 * own.loads) << name;
+    loads += own.loads;
+    met += own.met;
+  }
+  EXPECT_GE(met, 0.95 * loads);
+}
+
 /// Errors of what was chosen by its difference from the next level with a layer more, which leaves
 /// a quarter of them at most.
 LoadDifferences errorsOf(LoopHierarchy& levels, const ToleranceResult& result,
@@ -42,10 +97,6 @@ LoadDifferences errorsOf(LoopHierarchy& levels, const ToleranceResult& result,
   return errors;
 }
 
-struct Met {
-  int loads, met;
-};
-
 /// How many of forty loads err by no more than was asked for.
 Met loadsThatMeet(const std::string& name, double tolerance) {
   LoopHierarchy levels(name);
@@ -63,8 +114,6 @@ Met loadsThatMeet(const std::string& name, double tolerance) {
   return met;
 }
 
-/// Of all loads on the four models; of each model's own the spatula's blade, which locks, misses a
-/// tenth.
 TEST(Tolerances, AreMetByNineteenOfTwentyLoads) {
   int loads = 0, met = 0;
   for (const auto& [name, tolerance] :
@@ -73,10 +122,9 @@ TEST(Tolerances, AreMetByNineteenOfTwentyLoads) {
                                                    {"nodule", 0.03},
                                                    {"kidney", 0.1},
                                                    {"kidney", 0.05},
-                                                   {"spatula", 0.1},
                                                    {"banana_seat", 0.1}}) {
     const Met own = loadsThatMeet(name, tolerance);
-    EXPECT_GE(own.met, 0.85 * own.loads) << name;
+    EXPECT_GE(own.met, 0.9 * own.loads) << name;
     loads += own.loads;
     met += own.met;
   }

@@ -120,13 +120,17 @@ ErrorEstimate ToleranceLevels::estimateByParts(MeshSetting setting) const {
   const double ratio = edgeRatio(setting.level), square = ratio * ratio;
   const double left = widthOf(setting.layers) / ratio;
   // Between levels the rest of the error differs by (ratio^2 - 1) times what is left of it, the
-  // rim's part by (ratio - 1) times.
-  const auto combine = [&](std::vector<double>& error, const std::vector<double>& ofRim) {
+  // rim's part by (ratio - 1) times. Walls that lock are too stiff by a factor 1 + x, where x goes
+  // with the square of the edges: their difference is to be seen relative to the coarser answer.
+  const auto combine = [&](std::vector<double>& error, const std::vector<double>& growth,
+                           const std::vector<double>& ofRim) {
     for (std::size_t load = 0; load < error.size(); ++load)
-      error[load] = (error[load] + (square - ratio) * left * ofRim[load]) / (square - 1);
+      error[load] =
+          (std::max(growth[load], 1.0) * error[load] + (square - ratio) * left * ofRim[load]) /
+          (square - 1);
   };
-  combine(errors.field, rim.field);
-  combine(errors.contact, rim.contact);
+  combine(errors.field, errors.fieldGrowth, rim.field);
+  combine(errors.contact, errors.contactGrowth, rim.contact);
   ErrorEstimate estimate = otherErrors(*at(setting).result.view());
   addDiscretization(errors, 1, spread.length, estimate);
   return estimate;

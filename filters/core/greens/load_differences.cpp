@@ -44,12 +44,13 @@ std::optional<Eigen::MatrixX3d> respond(const GreensFunctions& greens, const Sur
   return answer;
 }
 
-double relative(const Eigen::MatrixX3d& difference, const Eigen::MatrixX3d& whole,
+/// Over the norm of a whole.
+double relative(const Eigen::MatrixX3d& part, const Eigen::MatrixX3d& whole,
                 const Eigen::VectorXd& weights) {
   const auto norm = [&](const Eigen::MatrixX3d& m) {
     return std::sqrt(weights.dot(m.rowwise().squaredNorm()));
   };
-  return norm(difference) / norm(whole);
+  return norm(part) / norm(whole);
 }
 
 }  // namespace
@@ -118,6 +119,9 @@ LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMes
     const Eigen::Index at = 3 * (std::lower_bound(rows.begin(), rows.end(), vertex) - rows.begin());
     differences.contact.push_back(difference.middleRows<3>(at).norm() /
                                   fine->middleRows<3>(at).norm());
+    differences.fieldGrowth.push_back(relative(*fine, *coarse, weights));
+    differences.contactGrowth.push_back(fine->middleRows<3>(at).norm() /
+                                        coarse->middleRows<3>(at).norm());
   }
   return differences;
 }

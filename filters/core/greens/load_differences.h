@@ -30,6 +30,7 @@ SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions&
 struct LoadDifferences {
   std::vector<double> field;  ///< of the displacement, L2 over the free surface, in all directions
   std::vector<double> contact;  ///< of the 3 by 3 compliance in the load's middle, Frobenius
+  std::vector<double> fieldGrowth, contactGrowth;  ///< the finer's norms over the coarser's
 
   /// Root mean square, and what 95 % of the entries do not exceed; -1 if there are none.
   static double mean(const std::vector<double>& differences);
