@@ -24,6 +24,7 @@
 
 #include "haptics/force_safety.h"
 #include "picture/virtual_display.h"
+#include "progress_bar.h"
 #include "touch/window.h"
 #include "whole_file.h"
 
@@ -285,7 +286,13 @@ void runWindow(const TouchOptions& options) {
     vtkNew<vtkInteractorStyleHaptic> style;
     silenceAll(style);
     configure(style, options);
+    vtkNew<vtkCallbackCommand> progress;
+    progress->SetCallback([](vtkObject*, unsigned long, void*, void* fraction) {
+      drawProgress(*static_cast<double*>(fraction), "rehearse");
+    });
+    style->AddObserver(vtkCommand::ProgressEvent, progress);
     const std::string plan = style->GetEvaluationPlan();
+    endProgressBar();
     require(!plan.empty(), style);
     std::cout << plan << std::flush;
     return;

@@ -11,7 +11,7 @@
 #include "contact/point_contact.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
-#include "support/counting_greens.h"
+#include "greens/counting_greens.h"
 #include "support/point_masks.h"
 
 namespace palpate::test {

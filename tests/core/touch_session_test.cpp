@@ -9,7 +9,7 @@
 #include "haptics/tool_touch.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
-#include "support/counting_greens.h"
+#include "greens/counting_greens.h"
 #include "support/process_state.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"

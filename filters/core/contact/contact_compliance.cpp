@@ -175,10 +175,11 @@ void ContactCompliance::multiply(const double* forces, double* out) const noexce
   std::fill_n(out, stride_, 0);
   const double* columns[kColumnGroup];
   double weights[kColumnGroup];
-  int group = 0;
+  int group = 0, loaded = 0;
   for (int contact = 0; contact < count_; ++contact) {
     const double* force = forces + 3 * contact;
     if (force[0] == 0 && force[1] == 0 && force[2] == 0) continue;
+    ++loaded;
     for (int k = 0; k < 3; ++k) {
       columns[group] = column(3 * contact + k);
       weights[group++] = force[k];
@@ -188,6 +189,8 @@ void ContactCompliance::multiply(const double* forces, double* out) const noexce
     group = 0;
   }
   addWeightedColumns(columns, weights, group, padded(3 * count_), out);
+  const double entries = 3. * loaded * padded(3 * count_);
+  work_.add(entries, entries);
 }
 
 void ContactCompliance::addColumn(int contact, const Eigen::Vector3d& force,
@@ -195,6 +198,8 @@ void ContactCompliance::addColumn(int contact, const Eigen::Vector3d& force,
   const double* columns[3] = {column(3 * contact), column(3 * contact + 1),
                               column(3 * contact + 2)};
   addWeightedColumns(columns, force.data(), 3, padded(3 * count_), out);
+  const double entries = 3. * padded(3 * count_);
+  work_.add(entries, entries);
 }
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/contact_work.h"
 #include "greens/greens_functions.h"
 #include "linear_algebra/aligned_buffer.h"
 
@@ -94,6 +95,8 @@ class ContactCompliance {
   /// Column k of W, padded with zeros to stride().
   const double* column(int k) const { return matrix_.data() + std::size_t(k) * stride_; }
   int stride() const { return stride_; }
+  /// Of multiply and addColumn.
+  const ContactWork& work() const { return work_; }
 
  private:
   bool hasColumns(const ContactSite& site) const noexcept;
@@ -109,6 +112,7 @@ class ContactCompliance {
   bool symmetric_ = true;  ///< whether W is
   std::vector<ContactSite> sites_;
   AlignedBuffer<double> matrix_;
+  mutable ContactWork work_;
   std::vector<int> nodes_, owners_;  ///< scratch: parts of present contacts in one body
   std::vector<double> weights_, blocks_, rowBorder_, columnBorder_;
 };

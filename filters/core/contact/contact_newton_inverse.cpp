@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kRegularisation = 1e-6;  ///< epsilon; r W is of the order of one
 
+// Multiplications, and numbers that are read, of a block of the Newton matrix.
+constexpr double kEntry = 36, kBlock = 9;
+
 }  // namespace
 
 ContactNewtonInverse::ContactNewtonInverse(const ContactCompliance& compliance)
@@ -71,6 +74,21 @@ Eigen::Matrix3d ContactNewtonInverse::entry(int row, int column,
   return entry;
 }
 
+/// x = H b and y = H^T c, three columns each.
+void ContactNewtonInverse::multiplyBoth(const double* b, const double* c, double* x,
+                                        double* y) const noexcept {
+  multiplyBothSides(inverse_.data(), 3 * active_, stride_, b, c, 3, x, y);
+  const double entries = 3. * active_ * padded(3 * active_);
+  work_.add(6 * entries, entries);
+}
+
+/// H += x y^T, three columns each.
+void ContactNewtonInverse::addProduct(const double* x, const double* y) noexcept {
+  addOuterProduct(inverse_.data(), 3 * active_, stride_, x, y, 3);
+  const double entries = 3. * active_ * padded(3 * active_);
+  work_.add(3 * entries, 2 * entries);
+}
+
 /// A contact's rows over all slots, transposed and padded.
 void ContactNewtonInverse::setRows(int contact, const Eigen::Matrix3d& share,
                                    double* rows) const noexcept {
@@ -79,6 +97,7 @@ void ContactNewtonInverse::setRows(int contact, const Eigen::Matrix3d& share,
         entry(contact, contactOf_[slot], share).transpose();
   for (int j = 0; j < 3; ++j)
     std::fill(rows + j * stride_ + 3 * active_, rows + j * stride_ + padded(3 * active_), 0);
+  work_.add(kEntry * active_, kBlock * active_);
 }
 
 /// to = from * by, three columns over all slots, padded.
@@ -91,6 +110,7 @@ void ContactNewtonInverse::scaleColumns(const double* from, const Eigen::Matrix3
           from[k] * by(0, j) + from[stride_ + k] * by(1, j) + from[2 * stride_ + k] * by(2, j);
     std::fill(target + 3 * active_, target + padded(3 * active_), 0);
   }
+  work_.add(kBlock * 3 * active_, 0);
 }
 
 void ContactNewtonInverse::update(int contact, const Eigen::Matrix3d& share) noexcept {
@@ -114,7 +134,7 @@ void ContactNewtonInverse::insert(int contact, const Eigen::Matrix3d& share) noe
   for (int j = 0; j < 3; ++j)
     std::fill(b + j * stride_ + 3 * active_, b + j * stride_ + padded(3 * active_), 0);
   setRows(contact, share, c);
-  multiplyBothSides(inverse_.data(), 3 * active_, stride_, b, c, 3, hb, hc);
+  multiplyBoth(b, c, hb, hc);
   Eigen::Matrix3d schur = entry(contact, contact, share);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -124,7 +144,7 @@ void ContactNewtonInverse::insert(int contact, const Eigen::Matrix3d& share) noe
   scaleColumns(hb, corner, b);
   for (int j = 0; j < 3; ++j)
     std::fill(hc + j * stride_ + 3 * active_, hc + j * stride_ + padded(3 * active_), 0);
-  addOuterProduct(inverse_.data(), 3 * active_, stride_, b, hc, 3);
+  addProduct(b, hc);
   const int slot = active_++;
   for (int j = 0; j < 3; ++j) {
     std::fill_n(column(3 * slot + j), stride_, 0);
@@ -138,6 +158,8 @@ void ContactNewtonInverse::insert(int contact, const Eigen::Matrix3d& share) noe
   slotOf_[contact] = slot;
   contactOf_[slot] = contact;
   share_[contact] = share;
+  // The border, its product with H, and the new rows.
+  work_.add((kEntry + 2 * 3 * kBlock) * slot, (kBlock + 2 * kBlock) * slot);
 }
 
 /// H -= (its columns of the contact) corner^-1 (its rows), over what remains.
@@ -164,7 +186,7 @@ void ContactNewtonInverse::erase(int contact) noexcept {
   for (int k = 0; k < 3 * active_; ++k) std::fill_n(column(k) + 3 * last, 3, 0);
   if (!cornerInverse.allFinite()) return clear();
   scaleColumns(column(3 * last), -cornerInverse, x_.data());
-  addOuterProduct(inverse_.data(), 3 * active_, stride_, x_.data(), y_.data(), 3);
+  addProduct(x_.data(), y_.data());
 }
 
 /// With new rows R: H -= H_i (R H)_ii^-1 (R H - E_i^T), after which R H = E_i^T whatever H was.
@@ -172,7 +194,7 @@ void ContactNewtonInverse::replace(int contact, const Eigen::Matrix3d& share) no
   const int slot = slotOf_[contact];
   double *rows = left_.data(), *product = y_.data(), *unused = x_.data();
   setRows(contact, share, rows);
-  multiplyBothSides(inverse_.data(), 3 * active_, stride_, rows, rows, 3, unused, product);
+  multiplyBoth(rows, rows, unused, product);
   for (int j = 0; j < 3; ++j)
     std::fill(product + j * stride_ + 3 * active_, product + j * stride_ + padded(3 * active_), 0);
   Eigen::Matrix3d pivot;
@@ -182,7 +204,7 @@ void ContactNewtonInverse::replace(int contact, const Eigen::Matrix3d& share) no
   if (!pivotInverse.allFinite()) return erase(contact);
   for (int j = 0; j < 3; ++j) product[j * stride_ + 3 * slot + j] -= 1;
   scaleColumns(column(3 * slot), -pivotInverse, x_.data());
-  addOuterProduct(inverse_.data(), 3 * active_, stride_, x_.data(), product, 3);
+  addProduct(x_.data(), product);
   share_[contact] = share;
 }
 
@@ -191,6 +213,9 @@ bool ContactNewtonInverse::factor(const std::vector<Eigen::Matrix3d>& shares) no
   for (int contact = 0; contact < compliance_->count(); ++contact)
     if (!shares[contact].isZero(0)) pivots_[active++] = contact;
   const int size = 3 * active;
+  const double blocks = double(active) * active;
+  // LU and the inverse from it, each of whose passes reads and writes the matrix at least once.
+  work_.add(kEntry * blocks + double(size) * size * size, (1 + 2 * 3) * kBlock * blocks);
   double* lu = factor_.data();
   for (int j = 0; j < active; ++j)
     for (int i = 0; i < active; ++i)
@@ -233,6 +258,8 @@ void ContactNewtonInverse::apply(double* residual) const noexcept {
   }
   for (int slot = 0; slot < active_; ++slot)
     std::copy_n(out + 3 * slot, 3, residual + 3 * contactOf_[slot]);
+  const double entries = double(size) * padded(size);
+  work_.add(entries, entries);
 }
 
 }  // namespace palpate

@@ -53,6 +53,7 @@ class ContactNewtonInverse {
   void apply(double* residual) const noexcept;
 
   long updates() const { return updates_; }
+  const ContactWork& work() const { return work_; }
 
  private:
   using Block = Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>;
@@ -66,6 +67,8 @@ class ContactNewtonInverse {
   void erase(int contact) noexcept;
   void replace(int contact, const Eigen::Matrix3d& share) noexcept;
   void scaleColumns(const double* from, const Eigen::Matrix3d& by, double* to) const noexcept;
+  void multiplyBoth(const double* b, const double* c, double* x, double* y) const noexcept;
+  void addProduct(const double* x, const double* y) noexcept;
 
   const ContactCompliance* compliance_;
   int stride_, active_ = 0;
@@ -76,6 +79,7 @@ class ContactNewtonInverse {
   mutable AlignedBuffer<double> left_, right_, x_, y_;  ///< scratch, stride by 3
   std::vector<int> pivots_;
   long updates_ = 0;
+  mutable ContactWork work_;
 };
 
 }  // namespace palpate

@@ -21,6 +21,14 @@ constexpr int kHalvings = 8;        ///< of a step, at most
 constexpr int kSweeps = 16;         ///< at a time
 constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
 
+// Multiplications, as they are written below, a contact.
+constexpr double kProjection = 13, kSlip = 50;  ///< and more if it slips
+constexpr double kResidual = 9;                 ///< three squared lengths
+constexpr double kStaleness = 9;
+constexpr double kLinearised = 18;
+constexpr double kHalving = 6;
+constexpr double kClipping = 21;
+
 /// Sum of the changes of two sites' weights; infinite for other nodes.
 double driftBetween(const ContactSite& a, const ContactSite& b) {
   double drift = 0;
@@ -98,6 +106,7 @@ struct FrictionalContactSolver::Projection {
 };
 
 FrictionalContactSolver::Projection FrictionalContactSolver::project(int contact) const noexcept {
+  own_.add(kProjection, 0);
   const ContactConditions& conditions = conditions_[contact];
   const Eigen::Vector3d z =
       force(contact) - inverse_.scale(contact) * (displacement(contact) + conditions.offset);
@@ -109,6 +118,7 @@ FrictionalContactSolver::Projection FrictionalContactSolver::project(int contact
   const Eigen::Vector3d shear = z - pressure * n;
   const double length = shear.norm(), limit = conditions.friction * pressure;
   if (length <= limit && limit > 0) return {z, Eigen::Matrix3d::Identity(), ContactStatus::Stick};
+  own_.add(kSlip, 0);
   Projection slip;
   slip.status = ContactStatus::Slip;
   const Eigen::Vector3d direction = length > 0 ? (shear / length).eval() : Eigen::Vector3d::Zero();
@@ -147,6 +157,7 @@ double FrictionalContactSolver::evaluate() noexcept {
     worst = std::max(worst, size);
     largest_ = std::max({largest_, force(i).squaredNorm(), projection.force.squaredNorm()});
   }
+  own_.add(kResidual * count(), 0);
   largest_ = std::sqrt(largest_);
   return std::sqrt(worst);
 }
@@ -158,6 +169,7 @@ bool FrictionalContactSolver::isStale(int contact) const noexcept {
 /// Brings the inverse up to the shares wanted, at most so many. @return how many it did.
 int FrictionalContactSolver::renew(int mostUpdates) noexcept {
   int stale = 0, active = 0;
+  own_.add(kStaleness * count(), 0);
   for (int i = 0; i < count(); ++i) {
     stale += isStale(i);
     active += status_[i] != ContactStatus::Open;
@@ -233,6 +245,7 @@ bool FrictionalContactSolver::freshStep(Stage stage) noexcept {
 /// Newton's step as it is written: what opened contacts change for the others is linearised.
 void FrictionalContactSolver::linearStep() noexcept {
   const int size = 3 * count();
+  own_.add(kLinearised * count(), 0);
   step_.head(size) = displacement_.head(size);
   for (int i = 0; i < count(); ++i) {
     if (!inverse_.share(i).isZero(0)) continue;
@@ -254,6 +267,7 @@ void FrictionalContactSolver::damp(double before) noexcept {
   double share = 1;
   for (int k = 0; k < kHalvings; ++k) {
     evaluate();
+    own_.add(kHalving * count(), 0);
     if (residual_.head(size).norm() <= (1 - kArmijo * share) * before) return;
     share /= 2;
     forces_.head(size) = start_.head(size) + share * step_.head(size);
@@ -283,6 +297,7 @@ FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexce
 /// Puts every force into its cone. @return the largest excess there was over the largest force.
 double FrictionalContactSolver::clipped() noexcept {
   double excess = 0;
+  own_.add(kClipping * count(), 0);
   for (int i = 0; i < count(); ++i) {
     const ContactConditions& conditions = conditions_[i];
     if (conditions.bilateral) continue;
@@ -296,6 +311,12 @@ double FrictionalContactSolver::clipped() noexcept {
   }
   const double largest = largestForce();
   return excess > 0 ? excess / std::max(largest, excess) : 0;
+}
+
+ContactWork FrictionalContactSolver::work() const noexcept {
+  ContactWork work = own_;
+  work += compliance_->work();
+  return work += inverse_.work();
 }
 
 ContactCertificate FrictionalContactSolver::solve() noexcept {

@@ -55,8 +55,8 @@ struct ContactSolverSettings {
 /// Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)), and, where few contacts
 /// bear forces, Newton's steps with the inverse made afresh for each, whole at first, then damped
 /// by Armijo's rule on the norm of the residual. With a limit to updates a solve ends as well, cut,
-/// when they are used up and a round of sweeps no longer halves the residual. Contacts may depend on
-/// each other: the matrix is regularised, the residual is not.
+/// when they are used up and a round of sweeps no longer halves the residual. Contacts may depend
+/// on each other: the matrix is regularised, the residual is not.
 ///
 /// All memory is reserved by the constructor; nothing else allocates or throws. The work of a solve
 /// is bounded by its settings alone, so that equal input gives equal output bit by bit.
@@ -101,6 +101,9 @@ class FrictionalContactSolver {
   ContactStatus status(int contact) const { return status_[contact]; }
   /// The inverse that is kept, for its counts.
   const ContactNewtonInverse& inverse() const { return inverse_; }
+  /// All that solves and updates of displacements have computed so far, but for what comes of
+  /// Green's functions.
+  ContactWork work() const noexcept;
 
  private:
   struct Projection;
@@ -129,11 +132,12 @@ class FrictionalContactSolver {
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
   Eigen::VectorXd forces_, displacement_, residual_, best_;
   Eigen::VectorXd start_, step_;  ///< of a damped step
-  double fresh_ = 0;        ///< sum of the cubes of contacts, of inverses made afresh in this solve
-  int cursor_ = 0;          ///< contact whose rows were replaced last because they were stale
-  int refreshed_ = 0;       ///< and because steps did not gain
-  double largest_ = 0;      ///< force at the last evaluation, N
-  bool unsettled_ = false;  ///< whether the last solve was cut
+  double fresh_ = 0;    ///< sum of the cubes of contacts, of inverses made afresh in this solve
+  int cursor_ = 0;      ///< contact whose rows were replaced last because they were stale
+  int refreshed_ = 0;   ///< and because steps did not gain
+  double largest_ = 0;  ///< force at the last evaluation, N
+  mutable ContactWork own_;  ///< of vectors
+  bool unsettled_ = false;   ///< whether the last solve was cut
 };
 
 }  // namespace palpate

@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 
 #include "contact/inverse_updates.h"
 #include "contact/pressure_mask.h"
-#include "haptics/touched_nodes.h"
 #include "mesh/triangle_tree.h"
 
 namespace palpate {
@@ -22,30 +20,26 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kBlock = 9;       ///< numbers of a block of Green's functions
 constexpr double kNumber = 8;      ///< bytes
 constexpr int kMostSamples = 256;  ///< vertices and triangles whose masks are looked at
-constexpr int kFingertips = 5;
-constexpr double kFingertip = 0.045;  ///< of a hand's length
-constexpr double kSnapshots = 3;      ///< that a servo loop keeps
+constexpr double kSnapshots = 3;   ///< that a servo loop keeps
 
 // Flops, counted in the sources.
 constexpr double kTurnedBlock = 126;  ///< a block that is turned twice and scaled
-constexpr double kRankThree = 162;    ///< an update of the inverse, a pair of contacts
 constexpr double kPointTick = 600;    ///< a point: stiffness, its norm, slip
 constexpr double kCoupling = 400;     ///< a pair of points: weights of corners, norm
 constexpr double kProximity = 30;     ///< a distance to a ball
 constexpr double kTorque = 15;        ///< a contact's torque
 
-/// Shapes of a tool that touch at a time, and their radius, m.
-std::pair<int, double> roundingOf(const SceneTool& tool) {
-  switch (tool.shape) {
-    case ToolShape::Sphere:
-    case ToolShape::Capsule:
-      return {1, tool.radius};
-    case ToolShape::Hand:
-      return {kFingertips, kFingertip * tool.length};
-    default:
-      return {1, std::numeric_limits<double>::infinity()};
-  }
-}
+/// What the work on a body depends on.
+struct BodySizes {
+  int nodes = 0, freeNodes = 0, triangles = 0;
+  double nodeArea = 0;       ///< m^2, mean
+  double edge = 0;           ///< m, mean
+  bool knowsWeight = false;  ///< what it does comes with the Green's functions
+  // Of pressure masks, if points touch it:
+  double maskNodes = 0;         ///< mean number of nodes
+  double maskNodesSquared = 0;  ///< mean of its square
+  double pointNodes = 0;        ///< under the masks of all corners of a triangle, by area
+};
 
 int partsOf(const SceneTool& tool) {
   return tool.shape == ToolShape::Hand ? kHandCapsuleCount : 1;
@@ -54,10 +48,14 @@ int partsOf(const SceneTool& tool) {
 /// A plan in the making.
 class Planner {
  public:
-  Planner(const Scene& scene, const std::vector<BodySizes>& bodies, const ExpectedTouch& touch)
+  /// @param rehearsed  of shapes.
+  Planner(const Scene& scene, const std::vector<BodySizes>& bodies, const ExpectedTouch& touch,
+          const RehearsedTouch& rehearsed)
       : scene_(scene), bodies_(bodies), touch_(touch), first_(bodies.front()) {
     plan_.rate = scene.servo.rate;
+    plan_.rehearsed = rehearsed;
     loadedOf_.assign(bodies.size(), 0);
+    loadedSquaredOf_.assign(bodies.size(), 0);
     if (scene.isOfPoints())
       planPoints();
     else
@@ -71,8 +69,6 @@ class Planner {
   EvaluationPlan take() { return std::move(plan_); }
 
  private:
-  double depth(const BodySizes& body) const { return touch_.depth > 0 ? touch_.depth : body.edge; }
-
   /// All rows for all free columns, and the surface once more.
   void planGravity() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -105,6 +101,7 @@ class Planner {
   void planPoints() {
     const double tools = static_cast<double>(scene_.tools.size());
     loadedOf_[0] = std::min<double>(first_.freeNodes, tools * first_.pointNodes);
+    loadedSquaredOf_[0] = loadedOf_[0] * loadedOf_[0];
     const double blocks = first_.freeNodes * (first_.maskNodesSquared + first_.maskNodes);
     plan_.setup.push_back({"stiffness of the surface", first_.maskNodes, double(first_.freeNodes),
                            2 * kBlock * blocks, kNumber * kBlock * blocks});
@@ -125,7 +122,9 @@ class Planner {
   /// corner is new, to be coupled with three of each other point.
   void planCoupling(double tools) {
     const double crossings = 6 * first_.edge / (kPi * first_.nodeArea);  // a metre
-    const double ways = tools * touch_.speed / scene_.servo.rate;
+    double ways = 0;
+    for (const SceneTool& tool : scene_.tools)
+      ways += (touch_.speed > 0 ? touch_.speed : handSpeed(scene_, tool)) / scene_.servo.rate;
     const double columns = 3 * (tools - 1) * crossings * ways * first_.maskNodes;
     const double blocks = first_.maskNodes * columns, pairs = tools * (tools - 1) / 2;
     plan_.tick.push_back({"compliance between points that slide", first_.maskNodes, columns,
@@ -138,80 +137,35 @@ class Planner {
   }
 
   void planShapes() {
-    const double margin = scene_.solver.margin > 0 ? scene_.solver.margin : first_.edge / 2;
-    TouchedNodes sum;
+    const RehearsedTouch& counted = plan_.rehearsed;
+    loadedOf_ = counted.loaded;
+    loadedSquaredOf_ = counted.loadedSquared;
+    plan_.watched = counted.watched;
     double parts = 0;
-    const auto add = [&](double count, double radius, bool rigid) {
-      const TouchedNodes one =
-          touchedNodes(radius, first_, depth(first_), margin, rigid, count > 1);
-      sum.loaded += count * one.loaded;
-      sum.watched += count * one.watched;
-      sum.rim += count * one.rim;
-      sum.looks += count * one.looks;
-      sum.inside += count * one.inside;
-      sum.pressedInside += count * one.pressedInside;
-      return one.loaded;
-    };
-    for (const SceneTool& tool : scene_.tools) {
-      const auto [count, radius] = roundingOf(tool);
-      add(count, radius, true);
-      parts += partsOf(tool);
-    }
+    for (const SceneTool& tool : scene_.tools) parts += partsOf(tool);
     for (std::size_t i = 1; i < bodies_.size(); ++i) {
-      const double touching = add(1, bodies_[i].radius, false) * first_.nodeArea;  // m^2
-      // Corners of the triangles that are met: half an edge more all round.
-      const double reach = std::sqrt(touching / kPi) + bodies_[i].edge / 2;
-      loadedOf_[i] =
-          std::min<double>(bodies_[i].freeNodes, kPi * reach * reach / bodies_[i].nodeArea);
       parts += 1;
       plan_.memory.push_back(
           {"search on partner " + std::to_string(i),
            bodies_[i].triangles * (9 * kNumber + TriangleTree::bytesPerTriangle()) +
                3 * kNumber * bodies_[i].nodes});
     }
-    const double most = std::min(scene_.solver.capacityFor(first_.nodes), first_.nodes);
-    plan_.watched = std::min(most, sum.watched + sum.inside);
-    loadedOf_[0] = std::min(plan_.watched, sum.loaded);
-    if (sum.inside > 0) planTriangles(sum);
-    const double way = touch_.speed / scene_.servo.rate;
-    planSolve(sum.rim * way, sum.looks * way, parts);
-    planSolverMemory(parts);
-  }
-
-  /// Points inside triangles follow their tools: those near it move, at the cost of a new border of
-  /// the compliance, and all look at their corners under the forces of the moment.
-  void planTriangles(const TouchedNodes& sum) {
-    constexpr double moving = 0.7, looking = 1.2;  // shares, in strokes of balls of all sizes
-    const double corners = 3 * sum.inside, pressed = 3 * sum.pressedInside;
-    const double steps = scene_.solver.linearisations;
-    const double gathered =
-        steps * (moving * sum.inside * (3 * (sum.watched + corners) + kBlock) + 3 * pressed);
-    const double summed = steps * looking * corners * pressed;
-    plan_.tick.push_back({"points inside triangles", corners, pressed,
-                          kTurnedBlock * gathered + 2 * kBlock * summed,
-                          kNumber * kBlock * (gathered + summed)});
-  }
-
-  /// @param entering  vertices that enter the watch in a tick, and leave it.
-  /// @param looked    pressed away by the tool, whose displacements are formed to see if they are.
-  void planSolve(double entering, double looked, double parts) {
-    const double s = loadedOf_[0], w = plan_.watched;
-    const double blocks = entering * ((first_.reciprocal ? 1 : 2) * w + 1);
-    plan_.tick.push_back({"compliance of vertices that come near", w, entering,
-                          kTurnedBlock * blocks, kNumber * kBlock * blocks});
-    plan_.tick.push_back({"vertices that were pressed away", looked, s, 2 * kBlock * looked * s,
-                          kNumber * kBlock * looked * s});
+    const double w = counted.watched;
+    const auto per = [](double blocks, double rows) { return rows > 0 ? blocks / rows : 0; };
+    plan_.tick.push_back({"compliance of points that come near", w, per(counted.gatheredBlocks, w),
+                          kTurnedBlock * counted.gatheredBlocks,
+                          kNumber * kBlock * counted.gatheredBlocks});
+    plan_.tick.push_back({"points that are looked at as they are pressed",
+                          per(counted.displacementBlocks, loadedOf_[0]), loadedOf_[0],
+                          2 * kBlock * counted.displacementBlocks,
+                          kNumber * kBlock * counted.displacementBlocks});
     plan_.tick.push_back({"search for vertices that come near", 0, 0,
                           parts * first_.nodes + 3 * kProximity * w,
                           parts * first_.nodes * (kNumber + 1)});
-    const double products = scene_.solver.linearisations * (touch_.iterations + 2) + 1;
-    const double solves = scene_.solver.linearisations * touch_.iterations;
-    const double updates = w > 0 ? 2 * entering * s / w : 0;
     plan_.tick.push_back(
-        {"unilateral contact", 0, 0,
-         2 * kBlock * (products * s * w + solves * s * s) + kRankThree * updates * s * s,
-         kNumber * kBlock * (products * s * w + solves * s * s + 3 * updates * s * s)});
+        {"unilateral contact", 0, 0, 2 * counted.solverMultiplications, counted.solverBytes});
     if (scene_.effects.torque) plan_.tick.push_back({"torque", 0, 0, kTorque * w, kNumber * 6 * w});
+    planSolverMemory(parts);
   }
 
   void planSolverMemory(double parts) {
@@ -228,11 +182,12 @@ class Planner {
     const DeformationRows rows = scene_.effects.deformation;
     for (std::size_t i = 0; i < bodies_.size() && rows != DeformationRows::None; ++i) {
       const BodySizes& body = bodies_[i];
-      const double count = rows == DeformationRows::All       ? body.nodes
-                           : rows == DeformationRows::Contact ? loadedOf_[i]
-                                                              : touch_.visible * body.nodes;
       const std::string which = i ? " of partner " + std::to_string(i) : "";
-      addRows("deformation" + which, count, loadedOf_[i]);
+      if (rows == DeformationRows::Contact)
+        addRows("deformation" + which, loadedOf_[i], loadedOf_[i], loadedSquaredOf_[i]);
+      else
+        addRows("deformation" + which,
+                (rows == DeformationRows::All ? 1 : touch_.visible) * body.nodes, loadedOf_[i]);
       plan_.memory.push_back({"displacements" + which, 3 * kNumber * body.nodes});
     }
     if (scene_.effects.probes.empty()) return;
@@ -247,7 +202,10 @@ class Planner {
   }
 
   void addRows(const std::string& what, double rows, double columns) {
-    const double blocks = rows * columns;
+    addRows(what, rows, columns, rows * columns);
+  }
+
+  void addRows(const std::string& what, double rows, double columns, double blocks) {
     plan_.frame.push_back({what, rows, columns, 2 * kBlock * blocks, kNumber * kBlock * blocks});
   }
 
@@ -262,7 +220,7 @@ class Planner {
   const std::vector<BodySizes>& bodies_;
   const ExpectedTouch& touch_;
   const BodySizes& first_;
-  std::vector<double> loadedOf_;  ///< nodes under forces, a body
+  std::vector<double> loadedOf_, loadedSquaredOf_;  ///< nodes under forces, a body
   double snapshotBytes_ = 0;
   EvaluationPlan plan_;
 };
@@ -304,33 +262,37 @@ void measureMasks(const SceneBody& body, const SceneEffects& effects, BodySizes&
   if (area > 0) sizes.pointNodes /= area;
 }
 
-}  // namespace
-
-BodySizes sizesOf(const SceneBody& body, const Scene& scene) {
+BodySizes measure(const SceneBody& body, const Scene& scene) {
   BodySizes sizes;
   const SurfaceMesh& mesh = *body.mesh;
   sizes.nodes = mesh.vertexCount();
   sizes.freeNodes = static_cast<int>(body.greens->info().conditions.freeNodes().size());
-  sizes.columns = body.greens->columnCount();
   sizes.triangles = mesh.triangleCount();
   sizes.nodeArea = mesh.vertexAreas().mean();
   sizes.edge = mesh.meanEdgeLength();
-  sizes.radius = mesh.diagonal() / (2 * std::sqrt(3.0));
-  for (int f = 0; f < mesh.triangleCount(); ++f) sizes.longestEdges.push_back(mesh.longestEdge(f));
-  std::sort(sizes.longestEdges.begin(), sizes.longestEdges.end());
-  sizes.reciprocal = body.greens->info().reciprocal;
   sizes.knowsWeight = body.greens->info().weightResponse.size() > 0;
   if (scene.isOfPoints()) measureMasks(body, scene.effects, sizes);
   return sizes;
 }
 
-EvaluationPlan planEvaluation(const Scene& scene, const std::vector<BodySizes>& bodies,
-                              const ExpectedTouch& touch) {
+}  // namespace
+
+EvaluationPlan planEvaluation(const Scene& scene, const std::vector<SceneBody>& bodies,
+                              const ExpectedTouch& touch,
+                              const std::vector<std::shared_ptr<const SurfaceMesh>>& toolMeshes,
+                              const Progress& progress) {
   if (bodies.empty() || bodies.size() != scene.models.size())
     throw std::invalid_argument("the scene has " + std::to_string(scene.models.size()) +
-                                " models, but there are the sizes of " +
-                                std::to_string(bodies.size()));
-  return Planner(scene, bodies, touch).take();
+                                " models, but there are " + std::to_string(bodies.size()));
+  std::vector<BodySizes> sizes;
+  for (const SceneBody& body : bodies) sizes.push_back(measure(body, scene));
+  RehearsalSettings settings;
+  settings.depth = touch.depth;
+  settings.speed = touch.speed;
+  return Planner(scene, sizes, touch,
+                 scene.isOfPoints() ? RehearsedTouch{}
+                                    : rehearse(scene, bodies, toolMeshes, settings, progress))
+      .take();
 }
 
 PlannedWork total(const std::vector<PlannedWork>& list) {

@@ -53,6 +53,11 @@ std::string toText(const EvaluationPlan& plan) {
   std::ostringstream text;
   text << engineering(plan.loaded) << " nodes under forces";
   if (plan.watched > 0) text << ", " << engineering(plan.watched) << " watched";
+  if (const RehearsedTouch& rehearsed = plan.rehearsed; rehearsed.strokes > 0)
+    text << "; a tick's work as counted in " << rehearsed.strokes << " strokes over the model,\n"
+         << RehearsalSettings::kStrokeTicks - RehearsalSettings::kSinkingTicks << " ticks each, at "
+         << std::setprecision(3) << rehearsed.speed << " m/s and " << rehearsed.depth
+         << " m deep: its mean to " << std::ceil(100 * rehearsed.error) << " % (standard error)";
   text << "\n\n";
   if (!plan.setup.empty()) {
     writeTable(text, "once", plan.setup);

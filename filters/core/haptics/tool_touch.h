@@ -57,6 +57,7 @@ class ToolTouch final : public TouchModel {
   void setStiffnessScale(double scale);
 
   const UnilateralContact& contact() const noexcept { return contact_; }
+  const TouchTool& tool(int tool) const { return *tools_[tool].tool; }
   /// What the surface does to one part of a tool, about the part's position.
   Wrench partWrench(int tool, int part) const noexcept;
 

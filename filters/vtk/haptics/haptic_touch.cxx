@@ -63,19 +63,19 @@ void HapticTouch::LoadScene(const std::string& fileName)
   this->Loaded = std::move(loaded);
 }
 
-std::string HapticTouch::EvaluationPlan()
+std::string HapticTouch::EvaluationPlan(const ProgressCallback& progress)
 {
   if (this->Loaded.Bodies.empty())
   {
     throw std::invalid_argument("there is no model to plan for");
   }
   this->RequireRunnable();
-  std::vector<BodySizes> sizes;
-  for (const SceneBody& body : this->Loaded.Bodies)
+  std::vector<std::shared_ptr<const SurfaceMesh>> tools;
+  for (const SceneTool& tool : this->Described().tools)
   {
-    sizes.push_back(sizesOf(body, this->Described()));
+    tools.push_back(loadTool(tool, this->Loaded.Bodies[0].mesh->diagonal()).Mesh);
   }
-  return toText(planEvaluation(this->Described(), sizes));
+  return toText(planEvaluation(this->Described(), this->Loaded.Bodies, {}, tools, Progress(progress)));
 }
 
 void HapticTouch::SetTool(double radius)

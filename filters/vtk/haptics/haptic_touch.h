@@ -9,6 +9,7 @@
 #include "haptics/servo_loop.h"
 #include "loaded_scene.h"
 #include "mouse_device.h"
+#include "progress.h"
 
 #include <memory>
 #include <string>
@@ -30,7 +31,7 @@ public:
   void SetModel(vtkPolyData* model);
   void LoadScene(const std::string& fileName);
   /// @throws what Prepare would, but for a HID device that is not there.
-  std::string EvaluationPlan();
+  std::string EvaluationPlan(const ProgressCallback& progress = {});
   /// The first tool; the others stay.
   /// @param radius  of a ball; 0 for a point.
   void SetTool(double radius);

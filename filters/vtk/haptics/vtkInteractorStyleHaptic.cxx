@@ -5,6 +5,7 @@
 
 #include "haptic_style_touch.h"
 
+#include "vtkCommand.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
@@ -68,7 +69,16 @@ bool vtkInteractorStyleHaptic::LoadScene(const char* fileName)
 std::string vtkInteractorStyleHaptic::GetEvaluationPlan()
 {
   std::string plan;
-  this->Try([&] { plan = this->Internals->Session.EvaluationPlan(); });
+  this->Try(
+    [&]
+    {
+      plan = this->Internals->Session.EvaluationPlan(
+        [this](double fraction, const char*)
+        {
+          this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
+          return true;
+        });
+    });
   return plan;
 }
 

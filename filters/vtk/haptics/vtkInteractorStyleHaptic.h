@@ -65,7 +65,8 @@ public:
    */
   bool LoadScene(const char* fileName);
   /**
-   * What a tick and a frame of the scene will compute, as a table. Empty on failure.
+   * What a tick and a frame of the scene will compute, as a table. Empty on failure. What tools with a shape
+   * compute is rehearsed, which may take seconds: ProgressEvent tells how far it is.
    */
   std::string GetEvaluationPlan();
 

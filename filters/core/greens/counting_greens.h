@@ -7,7 +7,7 @@
 
 #include "greens/greens_functions.h"
 
-namespace palpate::test {
+namespace palpate {
 
 /// Other Green's functions, and what is asked of them. Of one thread.
 class CountingGreens final : public GreensFunctions {
@@ -66,4 +66,4 @@ class CountingGreens final : public GreensFunctions {
   mutable Counts counts_;
 };
 
-}  // namespace palpate::test
+}  // namespace palpate
