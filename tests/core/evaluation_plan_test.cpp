@@ -307,7 +307,8 @@ TEST(EvaluationPlans, PredictMemory) {
 
 TEST(EvaluationPlans, PartnersAddTheirOwnRows) {
   const Scene scene = parseScene(
-      "{\"models\": [{\"file\": \"a\"}, {\"file\": \"b\", \"position\": [0, 0, 1.95]}], \"tools\": "
+      "{\"models\": [{\"file\": \"a\"}, {\"file\": \"b\", \"position\": [0, 0, 1.95], "
+      "\"orientation\": {\"axis\": [1, 0, 0], \"angle\": 3.14}}], \"tools\": "
       "[{" +
       kBall +
       ", \"device\": \"m\"}], \"devices\": [{\"name\": \"m\", \"type\": \"mouse\"}], "
