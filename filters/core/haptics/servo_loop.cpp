@@ -237,15 +237,13 @@ void ServoLoop::readHands(double elapsed) noexcept {
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     Hand& hand = hands_[h];
     const bool present = hand.tool.device->read(hand.state);
-    const Eigen::Vector3d before = hand.pose.position;
     hand.pose = hand.safety.admit(present, hand.state, elapsed);
     if (hand.safety.startsAnew()) {
       hand.observer.interrupt();
-      hand.velocity.setZero();
+      hand.velocity.restart();
       anew = true;
-    } else {
-      hand.velocity = (hand.pose.position - before) / elapsed;
     }
+    hand.velocity.advance(hand.state.sequence, hand.pose.position, elapsed);
     hand.observer.advance(hand.pose.position);
     stage_->poses[h] = hand.tool.mapping.toScene(hand.pose);
   }
@@ -258,10 +256,11 @@ void ServoLoop::writeHands(ForceSafety::Request request, double elapsed) noexcep
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     Hand& hand = hands_[h];
     request.wanted = hand.tool.mapping.toDevice(stage_->wrenches[h]);
+    const Eigen::Vector3d velocity = hand.velocity.value();
     if (settings_.passivityDamping > 0 && !request.wanted.force.isZero(0))
-      request.wanted.force -= passivityDamping(hand.observer.contactEnergy(), hand.velocity,
-                                               period_, settings_.passivityDamping) *
-                              hand.velocity;
+      request.wanted.force -= passivityDamping(hand.observer.contactEnergy(), velocity, period_,
+                                               settings_.passivityDamping) *
+                              velocity;
     const Wrench& rendered = hand.safety.limit(request, elapsed);
     hand.observer.hold(rendered.force);
     hand.safety.delivered(hand.tool.device->write(rendered));

@@ -13,6 +13,7 @@
 #include "haptics/force_safety.h"
 #include "haptics/latest_value.h"
 #include "haptics/passivity.h"
+#include "haptics/report_velocity.h"
 #include "haptics/servo_report.h"
 #include "haptics/touch_model.h"
 #include "haptics/workspace_mapping.h"
@@ -121,8 +122,8 @@ class ServoLoop {
     ForceSafety safety;
     PassivityObserver observer;
     DeviceState state;
-    ToolPose pose;                                       ///< the last valid one
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
+    ToolPose pose;  ///< the last valid one
+    ReportVelocity velocity;
     Wrench rendered = kNoWrench;
   };
 
