@@ -116,12 +116,19 @@ void addContactOptions(CLI::App& command, TouchOptions& options) {
       command.add_option("--radius", options.maskRadius,
                          "Radius of a point's pressure mask, m; two mean edges by default");
   requireBetween(mask, 0, kFarthest);
+  CLI::Option* shape =
+      command
+          .add_option("--mask", options.maskShape,
+                      "Functional of a point's pressure mask over its radius: linear (default), "
+                      "uniform, gaussian or hertzian")
+          ->check(CLI::IsMember({"linear", "uniform", "gaussian", "hertzian"}));
   CLI::Option* stiffness =
       command.add_option("--rigid-stiffness", options.stiffnessLimit,
                          "Stiffness k of fixed vertices, N/m; points show none of a larger "
-                         "Frobenius norm than theirs, sqrt(3) k; 0 for the stiffest free vertex");
+                         "Frobenius norm than theirs, sqrt(3) k; 0 for the stiffest free vertex, "
+                         "of tools with a shape 10 E times the mean edge");
   requireBetween(stiffness, 0, 1e15);
-  ball->excludes(mask)->excludes(stiffness);
+  ball->excludes(mask)->excludes(shape);
   requireBetween(command.add_option("--contacts", options.contacts,
                                     "Most contacts of a ball or another shape at a time, up to "
                                     "2000; by default as many as the model has vertices, from 128 "

@@ -187,6 +187,7 @@ void runLab(const TouchOptions& options) {
   scene.devices.emplace_back();
   scene.effects.deformation = DeformationRows::None;
   scene.effects.friction = 1;  // so that the press stays where it is
+  if (!options.maskShape.empty()) scene.effects.maskShape = maskShapeFromName(options.maskShape);
   scene.effects.maskRadius = std::max(0.0, options.maskRadius);
   scene.effects.maskRadiusEdges = options.maskRadius >= 0 ? 0 : 2;
   scene.effects.stiffnessLimit = std::max(0.0, options.stiffnessLimit);

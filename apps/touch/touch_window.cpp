@@ -100,6 +100,7 @@ void configure(vtkInteractorStyleHaptic* style, const TouchOptions& options) {
   if (options.contacts != 0) require(style->SetContactCapacity(options.contacts), style);
   if (options.friction >= 0) require(style->SetFriction(options.friction), style);
   if (options.maskRadius >= 0) require(style->SetMaskRadius(options.maskRadius), style);
+  if (!options.maskShape.empty()) require(style->SetMaskShape(options.maskShape.c_str()), style);
   if (options.stiffnessLimit >= 0) require(style->SetRigidStiffness(options.stiffnessLimit), style);
   if (options.rate != 0) require(style->SetServoRate(options.rate), style);
   if (!options.deformation.empty())

@@ -18,6 +18,7 @@ struct TouchOptions {
   double toolRadius = 0;         ///< of a ball, 0 for a point
   int contacts = 0;              ///< most at a time, 0 as it is
   double friction = -1, maskRadius = -1, stiffnessLimit = -1, rate = 0;  ///< negative: as it is
+  std::string maskShape;    ///< linear, uniform, gaussian, hertzian; empty: as it is
   std::string deformation;  ///< all, visible, contact, none; empty: as it is
   std::string record, forces, image;
   bool headless = false, plan = false;

@@ -100,7 +100,6 @@ TEST(Scenes, SayWhatIsTouchedWithWhatAndWhatOfItIsSimulated) {
   EXPECT_EQ(scene.servo.processor, 1);
   EXPECT_EQ(scene.solver.capacity, 64);
   EXPECT_EQ(scene.solver.margin, 0.001);
-  EXPECT_EQ(scene.solver.rigidStiffness, 2000);
   EXPECT_EQ(scene.solver.solver.largestUpdates, 8);
 }
 

@@ -10,6 +10,7 @@
 #include "haptics/snapshot_deformation.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
+#include "support/refusals.h"
 
 namespace palpate::test {
 namespace {
@@ -109,6 +110,35 @@ TEST(ToolTouch, AStiffnessScaleChangesForcesAndNotShapes) {
   EXPECT_LE((stiff.force - 4 * soft.force).norm(), 1e-6 * stiff.force.norm());
   EXPECT_LE((second.displacement() - first.displacement()).norm(),
             1e-6 * first.displacement().norm());
+}
+
+/// Of a ball that presses on the support, where only fixed vertices yield: as if made with another
+/// stiffness, before the first step and while it presses.
+TEST(ToolTouch, TheRigidStiffnessIsThatOfTheSupport) {
+  const TouchedBody body = touchedSphere(2, true);  // fixed below -0.6
+  const ToolPose pose = at(0, 0, -1.25);
+  Wrench wrench;
+  const auto pressed = [&](ToolTouch& touch) {
+    for (int tick = 0; tick < 10; ++tick) EXPECT_FALSE(touch.step(&pose, &wrench).failed);
+    return wrench.force.norm();
+  };
+  const auto touchOf = [&](double rigid) {
+    UnilateralContactSettings settings;
+    settings.rigidStiffness = rigid;
+    return std::make_unique<ToolTouch>(body.greens, body.mesh, std::vector{ballTool(0.3)}, 0.3,
+                                       settings);
+  };
+  const double soft = pressed(*touchOf(20)), hard = pressed(*touchOf(60));
+  EXPECT_NEAR(hard, 3 * soft, 1e-6 * hard);
+  const auto touch = touchOf(20);
+  touch->setRigidStiffness(60);
+  EXPECT_NEAR(pressed(*touch), hard, 1e-6 * hard);
+  touch->setRigidStiffness(20);
+  EXPECT_NEAR(pressed(*touch), soft, 1e-6 * soft);
+  touch->setRigidStiffness(0);
+  EXPECT_NEAR(pressed(*touch), pressed(*touchOf(0)), 1e-6 * pressed(*touchOf(0)));
+  for (const double wrong : {-1., double(NAN), double(INFINITY)})
+    EXPECT_TRUE(isRefused([&] { touch->setRigidStiffness(wrong); }, "rigid stiffness must be"));
 }
 
 TEST(ToolTouch, TheLastSettingHoldsHoweverManyThereWereSinceTheLastStep) {

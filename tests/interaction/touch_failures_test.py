@@ -84,8 +84,9 @@ class Failures(Program):
                                value)
         self.run_badly("--rate: must be a number from 250", *touch, "--rate", 0)
         self.run_badly("--friction: must be a number from 0 to 100, not ", *touch, "--friction", "")
-        for option in ("--radius", "--rigid-stiffness"):
-            self.run_badly("excludes", *touch, option, 1, "--tool-radius", 0.01)
+        for option, value in (("--radius", 1), ("--mask", "uniform")):
+            self.run_badly("excludes", *touch, option, value, "--tool-radius", 0.01)
+        self.run_badly("--mask: round not in {linear,uniform,gaussian,hertzian}", *touch, "--mask", "round")
         self.run_badly("--contacts: must be a number from 1 to 2000, not 0", *touch, "--contacts", 0)
         self.run_badly("--contacts is of tools with a shape: add --tool-radius", *touch, "--contacts", 9)
         for option in ("--record", "--forces", "--image"):

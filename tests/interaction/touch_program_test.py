@@ -34,7 +34,7 @@ class Headless(Program):
 
     def test_options_are_those_of_the_style(self):
         printed = self.run_well(*self.scripted(PRESS), "--seconds", REST + 0.4, "--friction", 0.7,
-                                "--radius", 0.05, "--rate", 1000, "--rigid-stiffness", 100,
+                                "--radius", 0.05, "--mask", "hertzian", "--rate", 1000, "--rigid-stiffness", 100,
                                 "--deformation", "contact")
         self.assertIn("mu 0.7", printed)
         self.assertIn("mask 50 mm", printed)

@@ -314,6 +314,41 @@ class Scenes(Touching):
             self.assertGreater(np.linalg.norm(style.force()), 0.5 * most * depth)
             self.assertGreater(np.linalg.norm(free.force()), 1.1 * most * depth)
 
+    def test_of_the_mask_choose_its_functional_before_and_while_it_touches(self):
+        forces = {}
+        for name in ("linear", "uniform", "gaussian", "hertzian"):
+            held = np.repeat(path(*PRESS)[[1100]], 1000, axis=0)
+            before, later = self.scripted(held), self.scripted(held)
+            for style in (before, later):
+                self.assertTrue(style.SetMaskRadius(0.05))
+            self.assertTrue(before.SetMaskShape(name))
+            self.run_well(before, 0.5)
+            self.run_well(later, 0.1)
+            self.assertTrue(later.SetMaskShape(name))
+            self.assertEqual(later.GetMaskShape(), name)
+            self.run_well(later, 0.9)
+            forces[name] = np.linalg.norm(later.force())
+            self.run_well(before, 0.5)
+            self.assertAlmostEqual(np.linalg.norm(before.force()) / forces[name], 1, delta=1e-6)
+        self.assertEqual(len({round(force, 6) for force in forces.values()}), 4)
+        style = Touch(block_model())
+        self.refuse(style, "there is no mask 'round': choose linear, uniform", style.SetMaskShape, "round")
+        self.assertEqual(style.GetMaskShape(), "linear")
+
+    def test_of_the_rigid_stiffness_reach_balls(self):
+        forces = []
+        for steps in (((0.1, 100),), ((0.1, 1000),), ((0.1, 100), (0.3, 1000))):
+            below = np.array([*TOP[:2], -0.019])  # of a ball with a radius of 20 mm, at its middle
+            style = self.scripted(np.tile(below, (3000, 1)))
+            self.assertTrue(style.SetToolToSphere(0.02))
+            for seconds, stiffness in steps:
+                self.assertTrue(style.SetRigidStiffness(stiffness))
+                self.run_well(style, seconds)
+            self.run_well(style, 0.7)
+            forces.append(np.linalg.norm(style.force()))
+        self.assertAlmostEqual(forces[1] / forces[0], 10, delta=0.01)
+        self.assertAlmostEqual(forces[2] / forces[1], 1, delta=1e-3)
+
     def test_have_a_plan_of_what_is_computed(self):
         style = Touch(block_model())
         plan = style.GetEvaluationPlan()

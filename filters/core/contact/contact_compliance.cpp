@@ -159,6 +159,18 @@ void ContactCompliance::turn(int body, const Eigen::Matrix3d& orientation) noexc
       move(i, ContactSite(sites_[i]));
 }
 
+bool ContactCompliance::isOnFixed(int contact) const noexcept {
+  const ContactSite& site = sites_[contact];
+  return std::any_of(site.parts.begin(), site.parts.begin() + site.count,
+                     [&](const auto& part) { return bodies_[part.body]->isFixed(part.node); });
+}
+
+void ContactCompliance::setRigidStiffness(double rigidStiffness) noexcept {
+  rigidStiffness_ = rigidStiffness;
+  for (int i = 0; i < count_; ++i)
+    if (isOnFixed(i)) move(i, ContactSite(sites_[i]));
+}
+
 void ContactCompliance::remove(int contact) noexcept {
   const int last = --count_;
   if (contact != last) {

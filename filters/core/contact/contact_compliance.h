@@ -64,6 +64,11 @@ class ContactCompliance {
   /// Costs O(s^2).
   void turn(int body, const Eigen::Matrix3d& orientation) noexcept;
 
+  /// Lets fixed nodes yield by another stiffness, N/m, positive.
+  void setRigidStiffness(double rigidStiffness) noexcept;
+  /// Whether any of a contact's nodes is fixed.
+  bool isOnFixed(int contact) const noexcept;
+
   int count() const { return count_; }
   int capacity() const { return capacity_; }
   const GreensFunctions& body(int body) const { return *bodies_[body]; }

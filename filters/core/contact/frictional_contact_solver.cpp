@@ -93,6 +93,12 @@ void FrictionalContactSolver::move(int contact, const ContactSite& site) noexcep
   drift_[contact] = 0;
 }
 
+void FrictionalContactSolver::setRigidStiffness(double rigidStiffness) noexcept {
+  compliance_->setRigidStiffness(rigidStiffness);
+  for (int i = 0; i < count(); ++i)
+    if (compliance_->isOnFixed(i)) inverse_.moved(i);
+}
+
 void FrictionalContactSolver::clear() noexcept {
   inverse_.clear();
   while (count() > 0) remove(count() - 1);

@@ -83,6 +83,8 @@ class FrictionalContactSolver {
     compliance_->turn(body, orientation);
   }
   void move(int contact, const ContactSite& site) noexcept;
+  /// As ContactCompliance's; Newton's matrix follows at once.
+  void setRigidStiffness(double rigidStiffness) noexcept;
 
   ContactConditions& conditions(int contact) { return conditions_[contact]; }
 

@@ -17,6 +17,8 @@ enum class MaskShape {
 
 /// @throws std::invalid_argument for a name other than linear, uniform, gaussian, hertzian.
 MaskShape maskShapeFromName(const std::string& name);
+/// That name.
+const char* nameOf(MaskShape shape) noexcept;
 
 /// The contract of a radial mask functional. Kernels have no state: all of them are const and safe
 /// from several threads. A new one is a class in mask_kernels.cpp and a name in MaskShape.

@@ -53,6 +53,19 @@ MaskShape maskShapeFromName(const std::string& name) {
                               "': choose linear, uniform, gaussian or hertzian");
 }
 
+const char* nameOf(MaskShape shape) noexcept {
+  switch (shape) {
+    case MaskShape::Uniform:
+      return "uniform";
+    case MaskShape::Gaussian:
+      return "gaussian";
+    case MaskShape::Hertzian:
+      return "hertzian";
+    default:
+      return "linear";
+  }
+}
+
 const MaskKernel& maskKernel(MaskShape shape) noexcept {
   static const LinearKernel linear;
   static const UniformKernel uniform;

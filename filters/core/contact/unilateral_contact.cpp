@@ -97,6 +97,14 @@ void UnilateralContact::setFriction(int obstacle, double friction) {
   obstacles_[obstacle].obstacle.friction = friction;
 }
 
+void UnilateralContact::setRigidStiffness(double stiffness) {
+  if (!(stiffness >= 0) || !std::isfinite(stiffness))
+    throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
+                                std::to_string(stiffness));
+  settings_.rigidStiffness = stiffness;
+  solver_.setRigidStiffness(rigidStiffnessOf(solver_.compliance().body(0), *mesh_, settings_));
+}
+
 void UnilateralContact::setStiffnessScale(double scale) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw std::invalid_argument("a stiffness scale must be positive, not " + std::to_string(scale));

@@ -111,6 +111,11 @@ class UnilateralContact {
   /// Coulomb's mu of an obstacle, from the next step on.
   /// @throws std::invalid_argument if it is negative or NaN.
   void setFriction(int obstacle, double friction);
+  /// What fixed vertices yield by, as UnilateralContactSettings::rigidStiffness, from the next step
+  /// on.
+  /// @throws std::invalid_argument if it is negative or not finite.
+  void setRigidStiffness(double stiffness);
+  double rigidStiffness() const { return settings_.rigidStiffness; }
   /// Scales all forces, as if Young's moduli and the rigid stiffness were scaled.
   /// @throws std::invalid_argument if it is not positive.
   void setStiffnessScale(double scale);

@@ -360,7 +360,6 @@ Scene readWholeScene(const std::string& text) {
     scene.solver = readSolver(found);
   });
   section.requireNothingElse();
-  scene.solver.rigidStiffness = scene.effects.stiffnessLimit;
   return scene;
 }
 

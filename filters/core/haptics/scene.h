@@ -134,7 +134,7 @@ struct Scene {
   std::vector<SceneDevice> devices;
   SceneEffects effects;
   ServoSettings servo;
-  UnilateralContactSettings solver;
+  UnilateralContactSettings solver;  ///< but for its rigid stiffness: the stiffness limit
 
   /// Whether all tools are points; otherwise none is.
   bool isOfPoints() const { return tools.front().shape == ToolShape::Point; }

@@ -43,7 +43,8 @@ ToolTouch::ToolTouch(std::shared_ptr<const GreensFunctions> greens,
     : contact_(std::move(greens), std::move(mesh), obstaclesOf(tools, friction, partners),
                settings),
       friction_(friction),
-      wantedFriction_(friction) {
+      wantedFriction_(friction),
+      wantedRigid_(settings.rigidStiffness) {
   if (tools.empty()) throw std::invalid_argument("there is no tool to touch the surface with");
   for (const auto& tool : tools) {
     tools_.push_back({tool, static_cast<int>(poses_.size()), {}, kNoWrench});
@@ -61,6 +62,8 @@ void ToolTouch::takeOver() noexcept {
   friction_ = friction;
   const double scale = wantedScale_.load(std::memory_order_relaxed);
   if (scale != contact_.stiffnessScale()) contact_.setStiffnessScale(scale);
+  const double rigid = wantedRigid_.load(std::memory_order_relaxed);
+  if (rigid != contact_.rigidStiffness()) contact_.setRigidStiffness(rigid);
 }
 
 ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noexcept {
@@ -116,6 +119,13 @@ void ToolTouch::setStiffnessScale(double scale) {
     throw std::invalid_argument("a stiffness scale must be positive and finite, not " +
                                 std::to_string(scale));
   wantedScale_.store(scale, std::memory_order_relaxed);
+}
+
+void ToolTouch::setRigidStiffness(double stiffness) {
+  if (!(stiffness >= 0) || !std::isfinite(stiffness))
+    throw std::invalid_argument("the rigid stiffness must be at least 0 and finite, not " +
+                                std::to_string(stiffness));
+  wantedRigid_.store(stiffness, std::memory_order_relaxed);
 }
 
 ContactSnapshot ToolTouch::makeSnapshot() const {

@@ -56,6 +56,11 @@ class ToolTouch final : public TouchModel {
   /// @throws std::invalid_argument unless it is positive and finite.
   void setStiffnessScale(double scale);
 
+  /// k_Rigid, N/m, by which fixed vertices yield; 0 for UnilateralContactSettings' choice; as
+  /// setFriction.
+  /// @throws std::invalid_argument unless it is at least 0 and finite.
+  void setRigidStiffness(double stiffness);
+
   const UnilateralContact& contact() const noexcept { return contact_; }
   const TouchTool& tool(int tool) const { return *tools_[tool].tool; }
   /// What the surface does to one part of a tool, about the part's position.
@@ -78,7 +83,7 @@ class ToolTouch final : public TouchModel {
   double friction_;  ///< as the contact has it
 
   // Handed over:
-  std::atomic<double> wantedFriction_, wantedScale_{1};
+  std::atomic<double> wantedFriction_, wantedScale_{1}, wantedRigid_;
 };
 
 }  // namespace palpate

@@ -145,8 +145,10 @@ std::shared_ptr<TouchModel> toolTouch(
   for (std::size_t i = 1; i < bodies.size(); ++i)
     partners.push_back(
         {bodies[i].greens, bodies[i].mesh, scene.models[i].pose, scene.models[i].friction});
+  UnilateralContactSettings solver = scene.solver;
+  solver.rigidStiffness = effects.stiffnessLimit;
   auto touch = std::make_shared<ToolTouch>(bodies[0].greens, bodies[0].mesh, std::move(tools),
-                                           effects.friction, scene.solver, partners);
+                                           effects.friction, solver, partners);
   touch->setTorques(effects.torque);
   touch->setHolds(!effects.unilateral);
   touch->setStiffnessScale(effects.stiffnessScale);

@@ -3,6 +3,8 @@
 
 #include "haptic_style_touch.h"
 
+#include "contact/mask_kernel.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -36,6 +38,16 @@ bool vtkInteractorStyleHaptic::SetStiffnessScale(double scale)
 double vtkInteractorStyleHaptic::GetStiffnessScale()
 {
   return this->Internals->Session.Scene().effects.stiffnessScale;
+}
+
+bool vtkInteractorStyleHaptic::SetMaskShape(const char* name)
+{
+  return this->Try([&] { this->Internals->Session.SetMaskShape(palpate::maskShapeFromName(name ? name : "")); });
+}
+
+std::string vtkInteractorStyleHaptic::GetMaskShape()
+{
+  return palpate::nameOf(this->Internals->Session.Scene().effects.maskShape);
 }
 
 bool vtkInteractorStyleHaptic::SetRigidStiffness(double stiffness)

@@ -44,6 +44,7 @@ public:
   ///@{ At once.
   void SetFriction(double mu);
   void SetMaskRadius(double radius);
+  void SetMaskShape(MaskShape shape);
   void SetStiffnessScale(double scale);
   void SetRigidStiffness(double stiffness);
   void Reset();

@@ -149,6 +149,19 @@ void HapticTouch::SetMaskRadius(double radius)
   }
 }
 
+void HapticTouch::SetMaskShape(MaskShape shape)
+{
+  if (shape == this->Described().effects.maskShape)
+  {
+    return;
+  }
+  this->Described().effects.maskShape = shape;
+  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
+  {
+    points->setStiffness(this->Bounded(this->NewStiffness()));
+  }
+}
+
 void HapticTouch::SetStiffnessScale(double scale)
 {
   requireRange(scale > 0 && scale <= LargestScale,
@@ -177,9 +190,17 @@ void HapticTouch::SetRigidStiffness(double stiffness)
   requireRange(stiffness >= 0 && stiffness <= LargestStiffness,
     "the rigid stiffness must be from 0 to 1e15 N/m", stiffness);
   this->Described().effects.stiffnessLimit = stiffness;
-  if (auto* points = this->Session ? dynamic_cast<PointTouch*>(&this->Session->contact()) : nullptr)
+  if (!this->Session)
+  {
+    return;
+  }
+  if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
   {
     points->setStiffness(this->Bounded(points->stiffness()->withRigidStiffness(stiffness)));
+  }
+  else
+  {
+    static_cast<ToolTouch&>(this->Session->contact()).setRigidStiffness(stiffness);
   }
 }
 

@@ -110,6 +110,15 @@ public:
 
   ///@{
   /**
+   * The functional of a point's pressure mask over its radius: "linear" (default, the paper's), "uniform",
+   * "gaussian" or "hertzian". Takes effect at once, as the radius.
+   */
+  bool SetMaskShape(const char* name);
+  std::string GetMaskShape();
+  ///@}
+
+  ///@{
+  /**
    * By what all forces are scaled, positive (default 1). Takes effect at once.
    */
   bool SetStiffnessScale(double scale);
@@ -118,8 +127,9 @@ public:
 
   ///@{
   /**
-   * k_Rigid, N/m, the stiffness of fixed vertices: points show none of a larger Frobenius norm than theirs,
-   * sqrt(3) k_Rigid. 0 (default) for the stiffest free vertex. Takes effect at once. A device that states what
+   * k_Rigid, N/m, the stiffness of fixed vertices, to points and tools with a shape: points show none of a
+   * larger Frobenius norm than theirs, sqrt(3) k_Rigid. 0 (default) for the stiffest free vertex, to tools with
+   * a shape ten times Young's modulus times the mean edge. Takes effect at once. A device that states what
    * stiffness it renders stably bounds the Frobenius norm further, by that.
    */
   bool SetRigidStiffness(double stiffness);
