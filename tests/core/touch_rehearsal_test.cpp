@@ -93,7 +93,7 @@ TEST(TouchRehearsals, StrokeAsTheSceneAllows) {
   constexpr double digits = 1e-6;  // in which a radius is written
   EXPECT_NEAR(rehearse(ballOf(edge / 4), {touched}).depth, edge / 4, digits);
   EXPECT_NEAR(rehearse(ballOf(4 * edge), {touched}).depth, edge, digits);
-  EXPECT_NEAR(rehearse(ballOf(4 * edge, "simulated", 0.1), {touched}).depth, edge, digits);
+  EXPECT_NEAR(rehearse(ballOf(4 * edge, "simulated", 0.01), {touched}).depth, edge, digits);
   const RehearsedTouch held = rehearse(ballOf(4 * edge, "simulated", 1000), {touched});
   EXPECT_LT(held.depth, 0.5 * edge);
   EXPECT_GT(held.watched, 0);
@@ -118,14 +118,17 @@ TEST(TouchRehearsals, TellHowFarTheyAreAndStop) {
 /// Planes, capsules, hands and meshes come down on the body and touch it.
 TEST(TouchRehearsals, TouchWithToolsOfAnyShape) {
   const TouchedBody body = touchedSphere(1, true);
+  RehearsalSettings few;
+  few.error = 1;
   const Shape wedge = box({0.4, 0.3, 0.2}, {1, 1, 1});
   for (const std::string tool : {"\"shape\": \"plane\"", "\"shape\": \"hand\", \"length\": 1",
                                  "\"shape\": \"capsule\", \"radius\": 0.3, \"length\": 1",
                                  "\"shape\": \"mesh\", \"file\": \"wedge\""}) {
     const Scene scene =
         parseScene("{\"models\": [{\"file\": \"a\"}], \"tools\": [{" + tool +
-                   ", \"device\": \"d\"}], \"devices\": [{\"name\": \"d\", \"type\": \"mouse\"}]}");
-    const RehearsedTouch touched = rehearse(scene, {{body.greens, body.mesh}}, {wedge.mesh()}, {});
+                   ", \"device\": \"d\"}], \"devices\": [{\"name\": \"d\", \"type\": \"scripted\", "
+                   "\"file\": \"moves\"}]}");
+    const RehearsedTouch touched = rehearse(scene, {{body.greens, body.mesh}}, {wedge.mesh()}, few);
     EXPECT_GT(touched.loaded[0], 0.5) << tool;
     EXPECT_GT(touched.solverMultiplications, 0) << tool;
   }
