@@ -73,8 +73,13 @@ class Headless(Program):
         self.assertEqual(soft, shown(own / 4, "--rigid-stiffness", 1e6)[0])
         ball = ("--tool-radius", 0.02)
         self.assertEqual(shown(1e4, *ball)[1], "")
-        self.assertRegex(shown(1, *ball)[1], r"a vertex of the model has a stiffness of up to \S+ N/m, a tool that "
-                                             "touches several more, but the device states to render 1 N/m stably")
+        whole = shown(0, *ball)[0]
+        held, told = shown(1, *ball)
+        tool, factor = re.search(r"the tools' stiffness on the model, up to (\S+) N/m where they are \S+ m deep, is "
+                                 r"limited to the 1 N/m that the device states to render stably: all forces are (\S+) "
+                                 "times the model's", told).groups()
+        self.assertAlmostEqual(float(tool) * float(factor), 1, delta=0.01)
+        self.assertAlmostEqual(held / whole, float(factor), delta=0.01 * float(factor) + 1e-3 / whole)
 
     def test_contacts_that_there_is_no_room_for_are_told_and_the_rest_is_rendered(self):
         ball = (*self.scripted(PRESS), "--seconds", REST + 0.4, "--tool-radius", 0.02)

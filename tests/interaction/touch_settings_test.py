@@ -335,6 +335,24 @@ class Scenes(Touching):
         self.refuse(style, "there is no mask 'round': choose linear, uniform", style.SetMaskShape, "round")
         self.assertEqual(style.GetMaskShape(), "linear")
 
+    def test_do_not_lift_what_a_device_renders_stably_with_a_ball(self):
+        held = np.repeat(path(*PRESS)[[1100]] + [0, 0, 0.02], 3000, axis=0)  # 2 mm deep
+        style, free = self.scripted(held, 0.02, limits="3.3 0.1 30"), self.scripted(held, 0.02)
+        style.AddObserver("WarningEvent", lambda *_: None)
+        for touch in (style, free):
+            self.run_well(touch, 1)
+        self.assertIn("limited to the 30 N/m that the device states to render stably", style.GetWarnings())
+        bounded = np.linalg.norm(style.force())
+        self.assertLess(bounded, 30 * 0.002)
+        self.assertGreater(np.linalg.norm(free.force()), 3 * bounded)
+        for scale, share in ((10, 1), (1e-3, None), (1, 1)):
+            for touch in (style, free):
+                self.assertTrue(touch.SetStiffnessScale(scale))
+                self.run_well(touch, 0.3)
+            force = np.linalg.norm(style.force())
+            wanted = share * bounded if share else np.linalg.norm(free.force())
+            self.assertAlmostEqual(force / wanted, 1, delta=1e-3)
+
     def test_of_the_rigid_stiffness_reach_balls(self):
         forces = []
         for steps in (((0.1, 100),), ((0.1, 1000),), ((0.1, 100), (0.3, 1000))):

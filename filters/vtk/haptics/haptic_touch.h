@@ -118,7 +118,10 @@ private:
   void RequireRunnable();
   std::shared_ptr<const SurfaceStiffness> NewStiffness() const;
   std::shared_ptr<const SurfaceStiffness> Bounded(std::shared_ptr<const SurfaceStiffness> stiffness) const;
-  void BoundStiffness(const std::vector<ServoTool>& hands);
+  void BoundStiffness(const std::vector<ServoTool>& hands,
+    const std::vector<std::shared_ptr<const SurfaceMesh>>& meshes);
+  double BoundedScale() const;
+  void ScaleTools(double scale);
   double MeanEdge() const;
 
   palpate::Scene& Described() { return this->Loaded.Described; }
@@ -130,6 +133,7 @@ private:
   std::vector<bool> Silent; ///< whether a tool's device can render no force
   std::vector<Eigen::Vector3d> Pressed; ///< where simulated hands do
   std::vector<std::string> Cautions;    ///< of the session as it began
+  double ToolStiffness = 0; ///< |K| of the stiffest tool with a shape, at a stiffness scale of one; 0 if unknown
   double DeviceStiffness = 0; ///< most that all devices render stably, N/m in the scene; 0 if not known
   std::shared_ptr<MouseDevice> Pointer;
   ToolPose PointerPose;

@@ -127,7 +127,7 @@ void HapticTouch::Prepare()
   }
   this->BeginSession(meshes);
   this->Cautions = warningsOf(this->Described(), this->Loaded.Bodies);
-  this->BoundStiffness(hands);
+  this->BoundStiffness(hands, meshes);
   this->None.setZero(3, this->Loaded.Bodies[0].mesh->vertexCount());
   this->Loop =
     std::make_unique<ServoLoop>(this->Session->model(), hands, this->Described().servo);

@@ -4,6 +4,7 @@
 #include "haptic_touch.h"
 
 #include "haptics/point_touch.h"
+#include "haptics/tool_stiffness.h"
 #include "haptics/tool_touch.h"
 
 #include <algorithm>
@@ -39,19 +40,6 @@ double stiffest(const SurfaceStiffness& stiffness)
     largest = felt.hasNaN() ? largest : std::max(largest, felt.operatorNorm());
   }
   return largest;
-}
-
-/// The same of vertices that are touched alone; 0 where none has a stiffness.
-double stiffestVertex(const SceneBody& body)
-{
-  try
-  {
-    return stiffest(SurfaceStiffness(body.greens, body.mesh, MaskShape::Linear, 0));
-  }
-  catch (const std::exception&)
-  {
-    return 0;
-  }
 }
 } // namespace
 
@@ -92,11 +80,12 @@ std::shared_ptr<const SurfaceStiffness> HapticTouch::Bounded(
                                                           : stiffness;
 }
 
-/// Bounds what points show by what their devices render stably, and tells what of it tools with a shape may
-/// exceed.
-void HapticTouch::BoundStiffness(const std::vector<ServoTool>& hands)
+/// Bounds what tools show by what their devices render stably, and tells it: the stiffness of points place by
+/// place, all forces of tools with a shape by one factor, with which they stay those of an elastic body.
+void HapticTouch::BoundStiffness(const std::vector<ServoTool>& hands,
+  const std::vector<std::shared_ptr<const SurfaceMesh>>& meshes)
 {
-  this->DeviceStiffness = 0;
+  this->DeviceStiffness = this->ToolStiffness = 0;
   for (const ServoTool& hand : hands)
   {
     const double stated = hand.device->info().largestStiffness;
@@ -125,16 +114,33 @@ void HapticTouch::BoundStiffness(const std::vector<ServoTool>& hands)
     }
     return;
   }
-  const double single = this->Described().effects.stiffnessScale * stiffestVertex(this->Loaded.Bodies[0]);
-  if (single > this->DeviceStiffness)
+  const palpate::ToolStiffness tools = toolStiffness(this->Described(), this->Loaded.Bodies, meshes);
+  this->ToolStiffness = tools.stiffness;
+  const double scale = this->Described().effects.stiffnessScale;
+  if (const double bounded = this->BoundedScale(); bounded < scale)
   {
+    this->ScaleTools(bounded);
     std::snprintf(line, sizeof line,
-      "a vertex of the model has a stiffness of up to %.4g N/m, a tool that touches several more, but the "
-      "device states to render %.4g N/m stably: lower the scene's stiffness_scale or its mapping's "
-      "force_scale",
-      single, this->DeviceStiffness);
+      "the tools' stiffness on the model, up to %.4g N/m where they are %.4g m deep, is limited to the %.4g "
+      "N/m that the device states to render stably: all forces are %.3g times the model's",
+      scale * tools.stiffness, tools.depth, this->DeviceStiffness, bounded / scale);
     this->Cautions.emplace_back(line);
   }
+}
+
+/// Of tools with a shape: no larger than that the stiffest of them is as stiff as all devices render stably.
+double HapticTouch::BoundedScale() const
+{
+  const double scale = this->Described().effects.stiffnessScale;
+  return this->DeviceStiffness > 0 && this->ToolStiffness > 0
+    ? std::min(scale, this->DeviceStiffness / this->ToolStiffness)
+    : scale;
+}
+
+void HapticTouch::ScaleTools(double scale)
+{
+  this->Session->setStiffnessScale(scale);
+  static_cast<ToolTouch&>(this->Session->contact()).setStiffnessScale(scale);
 }
 
 void HapticTouch::SetMaskRadius(double radius)
@@ -171,9 +177,9 @@ void HapticTouch::SetStiffnessScale(double scale)
   {
     return;
   }
-  this->Session->setStiffnessScale(scale);
   if (auto* points = dynamic_cast<PointTouch*>(&this->Session->contact()))
   {
+    this->Session->setStiffnessScale(scale);
     const double modulus = this->Loaded.Bodies[0].greens->info().material.youngsModulus();
     const auto whole =
       points->stiffness()->withRigidStiffness(this->Described().effects.stiffnessLimit);
@@ -181,7 +187,7 @@ void HapticTouch::SetStiffnessScale(double scale)
   }
   else
   {
-    static_cast<ToolTouch&>(this->Session->contact()).setStiffnessScale(scale);
+    this->ScaleTools(this->BoundedScale());
   }
 }
 
