@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "contact/inverse_updates.h"
 #include "support/allocation_count.h"
 #include "support/synthetic_greens.h"
 
@@ -80,6 +81,20 @@ TEST(ContactCompliance, MultipliesAsItsBlocksDo) {
     EXPECT_LE((product.segment<3>(3 * i) - expected).norm(), 1e-14 * product.norm());
     EXPECT_LE((summed.segment<3>(3 * i) - expected).norm(), 1e-14 * product.norm());
   }
+}
+
+/// Of a product, each entry of the padded columns of contacts that bear a force, once.
+TEST(ContactCompliance, CountsTheEntriesOfItsProducts) {
+  ContactCompliance compliance({body(false, 1), body(false, 2)}, 10, 10);
+  for (const ContactSite& site : someSites()) ASSERT_TRUE(compliance.add(site));
+  const int n = compliance.count(), rows = padded(3 * n);
+  Eigen::VectorXd forces = Eigen::VectorXd::Ones(3 * n), out(compliance.stride());
+  forces.head<3>().setZero();  // open
+  compliance.multiply(forces.data(), out.data());
+  EXPECT_EQ(compliance.work().multiplications, 3. * (n - 1) * rows);
+  EXPECT_EQ(compliance.work().bytes, 8 * 3. * (n - 1) * rows);
+  compliance.addColumn(0, Eigen::Vector3d::Ones(), out.data());
+  EXPECT_EQ(compliance.work().multiplications, 3. * n * rows);
 }
 
 TEST(ContactCompliance, AFixedNodeYieldsAloneByTheRigidStiffness) {

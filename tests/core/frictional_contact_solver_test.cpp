@@ -12,6 +12,7 @@
 #include <random>
 
 #include "contact/capacitance_matrix.h"
+#include "contact/inverse_updates.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
 #include "support/synthetic_greens.h"
@@ -218,6 +219,30 @@ TEST(FrictionalContactSolver, ForcesAreThoseOfTheOneCombinationOfStatusesThatFit
       }
     }
     EXPECT_EQ(fits, 1) << seed;
+  }
+}
+
+/// Of all contacts held, which are one linear problem: a solve from rest makes the inverse by an
+/// update a contact, whose s^3 / 3 blocks are most of its work, and ends with the compliance and
+/// the inverse applied once or twice.
+TEST(FrictionalContactSolver, CountsTheWorkOfASolve) {
+  double before = 0;
+  for (const int count : {6, 12, 24}) {
+    ContactSolverSettings settings;
+    settings.largestUpdates = 1000;
+    FrictionalContactSolver solver = pressedPatch(count, 0, 1, settings);
+    for (int i = 0; i < count; ++i) solver.conditions(i).bilateral = true;
+    const double entered = solver.work().multiplications;
+    ASSERT_FALSE(solver.solve().budgetCut);
+    ASSERT_EQ(solver.inverse().updates(), count);
+    const double spent = solver.work().multiplications - entered;
+    // multiplyBothSides and addOuterProduct: nine products an entry of the inverse so far, padded.
+    double updates = 0;
+    for (int slot = 0; slot < count; ++slot) updates += 9. * 3 * slot * padded(3 * slot);
+    EXPECT_GT(spent, updates);
+    EXPECT_LT(spent, updates + 8. * 3 * count * padded(3 * count) + 400. * count * count) << count;
+    EXPECT_GT(spent, 3 * before);
+    before = spent;
   }
 }
 
