@@ -100,22 +100,45 @@ void tickOfPointTouchWithSnapshot(benchmark::State& state) {
   slide(state, true);
 }
 
-/// A ball that rubs under friction over all of a sphere at 0.1 m/s, taken as 10 cm in diameter, so
-/// deep that about s vertices bear a force: the whole unilateral problem, with vertices that come,
-/// go, stick and slip.
+/// Where a ball is that rubs over all of a sphere at 0.1 m/s, taken as 10 cm in diameter.
+ToolPose rubbing(int tick, double radius, double depth) {
+  const double along = 2e-3 * tick, polar = 1.2 + 0.5 * std::cos(0.5 * along);
+  const double height = 1 + radius - depth * std::min(1.0, tick / 200.0);
+  ToolPose pose;
+  pose.position = height * Eigen::Vector3d(std::sin(polar) * std::cos(along),
+                                           std::sin(polar) * std::sin(along), std::cos(polar));
+  return pose;
+}
+
+/// The depth at which the mean of its contacts is s, from that of a smooth surface on: contacts
+/// grow as the depth does.
+double depthOf(ToolTouch& touch, int n, int s, double radius) {
+  double depth = s * 4.0 * (radius + 1) / (n * radius);  // pi a^2 = s vertex areas, a^2 = R_e depth
+  for (int trial = 0; trial < 4; ++trial) {
+    double contacts = 0;
+    touch.reset();
+    for (int tick = 0; tick < kBallTicks; ++tick) {
+      const ToolPose pose = rubbing(tick, radius, depth);
+      Wrench wrench;
+      contacts += touch.step(&pose, &wrench).contactCount;
+    }
+    depth *= s * kBallTicks / contacts;
+  }
+  return depth;
+}
+
+/// That ball under friction, so deep that s vertices bear a force on average: the whole unilateral
+/// problem, with vertices that come, go, stick and slip, by the settings of a session.
 void tickOfBall(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0)), s = static_cast<int>(state.range(1));
   const auto mesh = std::make_shared<SurfaceMesh>(sphereModel(n).mesh());
-  const double radius = s > 50 ? 1 : 0.6, effective = radius / (radius + 1);
-  const double depth = s * 4.0 / (n * effective);  // pi a^2 = s vertex areas, a^2 = R_e depth
+  const double radius = s > 50 ? 1 : 0.6;
   UnilateralContactSettings settings;
-  settings.capacity = std::min(n, 3 * s);
-  settings.margin = mesh->meanEdgeLength() / 4;
   settings.solver.largestUpdates = 12;
   ToolTouch touch(sphereGreens(n), mesh,
                   {std::make_shared<RigidTouchTool>(std::make_shared<SphereShape>(radius))}, 0.3,
                   settings);
-  ToolPose pose;
+  const double depth = depthOf(touch, n, s, radius);
   Wrench wrench;
   Distribution distribution(kBallTicks);
   double contacts = 0, cut = 0, worst = 0;
@@ -123,11 +146,7 @@ void tickOfBall(benchmark::State& state) {
   const long before = test::allocationCount();
   for (auto _ : state) {
     if (tick % kBallTicks == 0) touch.reset();
-    const int k = tick++ % kBallTicks;
-    const double along = 2e-3 * k, polar = 1.2 + 0.5 * std::cos(0.5 * along);
-    const double height = 1 + radius - depth * std::min(1.0, k / 200.0);
-    pose.position = height * Eigen::Vector3d(std::sin(polar) * std::cos(along),
-                                             std::sin(polar) * std::sin(along), std::cos(polar));
+    const ToolPose pose = rubbing(tick++ % kBallTicks, radius, depth);
     const double start = cpuSeconds();
     const ContactCertificate certificate = touch.step(&pose, &wrench);
     const double taken = cpuSeconds() - start;
