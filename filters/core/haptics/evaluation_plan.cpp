@@ -155,7 +155,7 @@ class Planner {
     plan_.tick.push_back({"compliance of points that come near", w, per(counted.gatheredBlocks, w),
                           kTurnedBlock * counted.gatheredBlocks,
                           kNumber * kBlock * counted.gatheredBlocks});
-    plan_.tick.push_back({"points that are looked at as they are pressed",
+    plan_.tick.push_back({"points looked at as they are pressed",
                           per(counted.displacementBlocks, loadedOf_[0]), loadedOf_[0],
                           2 * kBlock * counted.displacementBlocks,
                           kNumber * kBlock * counted.displacementBlocks});
