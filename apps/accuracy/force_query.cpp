@@ -102,6 +102,7 @@ class ForceQuery final : public Query {
     }
     UnilateralContactSettings settings;
     settings.capacity = 512;
+    settings.solver = ContactSolverSettings::unhurried();
     settings.solver.tolerance = setting.contactTolerance;
     return std::make_unique<PreparedPress>(std::move(greens), body_.sharedMesh(setting.level),
                                            ballRadius_, settings, poses);

@@ -122,6 +122,7 @@ void runGrasp(const TouchOptions& options) {
   UnilateralContactSettings settings;
   settings.capacity = 400;
   settings.solver.largestUpdates = 200;  // a frame's deadline is not a servo loop's
+  settings.solver.largestWork = 2e9;
   ToolTouch touch(body.greens, body.mesh, {std::make_shared<HandTool>(hand)},
                   options.friction >= 0 ? options.friction : 0.5, settings);
   SnapshotDeformation deformation(body.greens);

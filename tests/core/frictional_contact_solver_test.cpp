@@ -324,6 +324,42 @@ TEST(FrictionalContactSolver, ABudgetIsKeptReportedAndCaughtUpWith) {
   EXPECT_LE(violation(solver), 1e-7);
 }
 
+/// Flops of one solve.
+double workOf(FrictionalContactSolver& solver, ContactCertificate& certificate) {
+  const double before = solver.work().multiplications;
+  certificate = solver.solve();
+  return 2 * (solver.work().multiplications - before);
+}
+
+/// Counted, not timed: the same solve ends at the same place on any machine. Beyond the limit there
+/// is one iteration with one update, and the last evaluation.
+TEST(FrictionalContactSolver, WorkIsBoundedReportedAndCaughtUpWith) {
+  constexpr int count = 60;
+  constexpr double pass = 18. * count * count, update = 162. * count * count;
+  FrictionalContactSolver whole = pressedPatch(count, 0.5, 3);
+  ContactCertificate certificate;
+  const double needed = workOf(whole, certificate);
+  EXPECT_FALSE(certificate.budgetCut);
+  for (const double limit : {1., 1e6, 3e6}) {
+    ASSERT_GT(needed, limit + update);
+    ContactSolverSettings settings;
+    settings.largestWork = limit;
+    FrictionalContactSolver solver = pressedPatch(count, 0.5, 3, settings),
+                            same = pressedPatch(count, 0.5, 3, settings);
+    EXPECT_LE(workOf(solver, certificate), limit + update + 8 * pass);
+    EXPECT_TRUE(certificate.budgetCut);
+    EXPECT_GT(certificate.residual, 1e-9);
+    EXPECT_EQ(same.solve().residual, certificate.residual);
+    int ticks = 1;
+    for (bool isCut = true; isCut; ++ticks) {
+      ASSERT_LT(ticks, 1000) << limit;
+      EXPECT_LE(workOf(solver, certificate), limit + update + 8 * pass);
+      isCut = certificate.budgetCut;
+    }
+    EXPECT_LE(violation(solver), 1e-7);
+  }
+}
+
 TEST(FrictionalContactSolver, ForcesServedUnderABudgetLieInTheirCones) {
   FrictionalContactSolver solver = pressedPatch(40, 0.3, 4, {1e-9, 1, 2});
   for (int tick = 0; tick < 5; ++tick) {
@@ -360,6 +396,7 @@ TEST(FrictionalContactSolver, RefusesSettingsWithoutSense) {
   EXPECT_THROW(FrictionalContactSolver({greens}, 100, 4, {0, 10, 0}), std::invalid_argument);
   EXPECT_THROW(FrictionalContactSolver({greens}, 100, 4, {1e-9, 0, 0}), std::invalid_argument);
   EXPECT_THROW(FrictionalContactSolver({greens}, 100, 4, {1e-9, 10, -1}), std::invalid_argument);
+  EXPECT_THROW(FrictionalContactSolver({greens}, 100, 4, {1e-9, 10, 0, -1}), std::invalid_argument);
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ const std::string kShapes = R"({
   "servo": {"rate": 500, "budget": 0.5, "snapshot_ticks": 2, "passivity_damping": 1.5,
             "real_time": false, "processor": 1},
   "solver": {"capacity": 64, "margin": 0.001, "linearisations": 2, "tolerance": 1e-6,
-             "largest_iterations": 20, "largest_updates": 8}
+             "largest_iterations": 20, "largest_updates": 8,
+             "largest_work": 1e6}
 })";
 
 const std::string kPoint = R"({
@@ -101,6 +102,7 @@ TEST(Scenes, SayWhatIsTouchedWithWhatAndWhatOfItIsSimulated) {
   EXPECT_EQ(scene.solver.capacity, 64);
   EXPECT_EQ(scene.solver.margin, 0.001);
   EXPECT_EQ(scene.solver.solver.largestUpdates, 8);
+  EXPECT_EQ(scene.solver.solver.largestWork, 1e6);
 }
 
 TEST(Scenes, OfOnePointNeedFourLines) {
@@ -251,6 +253,9 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
       {"\"largest_iterations\": 20", "\"largest_iterations\": 0",
        "\"solver.largest_iterations\" must"},
       {"\"largest_updates\": 8", "\"largest_updates\": -8", "\"solver.largest_updates\" must"},
+      {"\"largest_updates\": 8", "\"largest_updates\": 0",
+       "\"solver.largest_updates\" must be at least 1: without a limit the servo loop would wait"},
+      {"\"largest_work\": 1e6", "\"largest_work\": 0", "\"solver.largest_work\" must"},
       {"\"largest_updates\": 8", "\"capacity\": 8",
        "the key \"capacity\" is named twice in one object"},
       {"\"models\"", "\"model\"", "\"models\" is missing"},

@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "greens/counting_greens.h"
 #include "haptics/point_touch.h"
 #include "haptics/tool_touch.h"
 #include "support/allocation_count.h"
 #include "support/contact_bodies.h"
-#include "greens/counting_greens.h"
+#include "support/lock_count.h"
 #include "support/process_state.h"
 #include "support/refusals.h"
 #include "support/synthetic_greens.h"
@@ -86,6 +87,35 @@ TEST(TouchSessions, HoldWhatIsTouchedIfTheSceneSaysSo) {
     } else {
       EXPECT_LT(counted.wrench.force.z(), 0);
     }
+  }
+}
+
+/// As a scene says nothing of it: many contacts at once, whose statuses change.
+TEST(TouchSessions, TicksOfADefaultSceneNeitherLockNorAllocateNorThrow) {
+  ASSERT_TRUE(locksAreCounted() && allocationsAreCounted());
+  const TouchedBody body = touchedSphere(3, true);
+  for (const std::string& tool : {kPoint, std::string("\"shape\": \"sphere\", \"radius\": 2"),
+                                  std::string("\"shape\": \"plane\"")}) {
+    const Scene scene = parseScene(sceneText(tool, "\"friction\": {\"mu\": 0.3}"));
+    TouchSession session(scene, {{body.greens, body.mesh}});
+    ContactSnapshot snapshot = session.model()->makeSnapshot();
+    const bool isPlane = scene.tools[0].shape == ToolShape::Plane;
+    const double off = isPlane ? 1 : 1 + scene.tools[0].radius;
+    ToolPose pose;
+    if (isPlane) pose.orientation = Eigen::AngleAxisd(3.14, Eigen::Vector3d::UnitX());
+    Wrench wrench = kNoWrench;
+    int most = 0;
+    const long before = allocationCount() + lockCount() + exceptionCount();
+    for (int tick = 0; tick < 300; ++tick) {
+      const double angle = 0.001 * tick;
+      pose.position =
+          (off + 0.05 - 0.001 * tick) * Eigen::Vector3d(std::sin(angle), 0, std::cos(angle));
+      most = std::max(most, session.model()->step(&pose, &wrench).contactCount);
+      session.model()->fill(snapshot);
+    }
+    EXPECT_EQ(allocationCount() + lockCount() + exceptionCount(), before) << tool;
+    EXPECT_GT(wrench.force.norm(), 0) << tool;
+    EXPECT_GT(most, tool == kPoint ? 0 : 30) << tool;
   }
 }
 

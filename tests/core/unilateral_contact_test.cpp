@@ -336,8 +336,9 @@ TEST(UnilateralContact, WhereThereIsNoRoomForAllTheDeepestAreTaken) {
 
 TEST(UnilateralContact, RoomIsChosenForAPlaneOverMostOfTheSurface) {
   const TouchedBody body = touchedSphere(3, true);
-  UnilateralContact chosen(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}}, {});
   UnilateralContactSettings enough;
+  enough.solver = ContactSolverSettings::unhurried();
+  UnilateralContact chosen(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}}, enough);
   enough.capacity = body.mesh->vertexCount();
   UnilateralContact whole(body.greens, body.mesh, {{std::make_shared<PlaneShape>(), 0.3}}, enough);
   ContactCertificate last;

@@ -18,6 +18,7 @@ inline UnilateralContactSettings still(int capacity, double margin = 0) {
   settings.capacity = capacity;
   settings.margin = margin;
   settings.linearisations = 6;
+  settings.solver = ContactSolverSettings::unhurried();
   return settings;
 }
 

@@ -55,6 +55,12 @@ class ContactNewtonInverse {
   long updates() const { return updates_; }
   const ContactWork& work() const { return work_; }
 
+  /// Flops of what may be next: an update goes over the inverse twice, with three columns, and an
+  /// inverse is made of as many as contacts.
+  double workOfUpdate() const { return 162.0 * (active_ + 1) * (active_ + 1); }
+  static double workOfRebuild(double contacts) { return 54 * contacts * contacts * contacts; }
+  double workOfApply() const { return 18.0 * active_ * active_; }
+
  private:
   using Block = Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>;
   double* column(int k) const { return inverse_.data() + std::size_t(k) * stride_; }

@@ -11,14 +11,13 @@
 namespace palpate {
 namespace {
 
-constexpr double kStaleShare = 0.25;  ///< |D - D of the inverse| from which rows are replaced
-constexpr double kEnoughGain = 0.5;   ///< of the residual, by which a step is worth repeating
-constexpr int kPatience = 4;          ///< steps by the kept inverse without gain
-constexpr int kFreshPatience = 20;    ///< and by fresh ones, which may wander before they arrive
-constexpr double kFreshWork = 4e5;  ///< contacts cubed, 54 flops each: some ms; of a bounded solve
-constexpr double kArmijo = 1e-4;    ///< share of the foreseen gain that a damped step must make
-constexpr int kHalvings = 8;        ///< of a step, at most
-constexpr int kSweeps = 16;         ///< at a time
+constexpr double kStaleShare = 0.25;    ///< |D - D of the inverse| from which rows are replaced
+constexpr double kEnoughGain = 0.5;     ///< of the residual, by which a step is worth repeating
+constexpr int kPatience = 4;            ///< steps by the kept inverse without gain
+constexpr int kFreshPatience = 20;      ///< and by fresh ones, which may wander before they arrive
+constexpr double kArmijo = 1e-4;        ///< share of the foreseen gain that a damped step must make
+constexpr int kHalvings = 8;            ///< of a step, at most
+constexpr int kSweeps = 16;             ///< at a time
 constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
 
 // Multiplications, as they are written below, a contact.
@@ -47,10 +46,11 @@ FrictionalContactSolver::FrictionalContactSolver(
     : compliance_(std::make_unique<ContactCompliance>(std::move(bodies), rigidStiffness, capacity)),
       settings_(settings),
       inverse_(*compliance_) {
-  if (!(settings.tolerance > 0) || settings.largestIterations < 1 || settings.largestUpdates < 0)
+  if (!(settings.tolerance > 0) || settings.largestIterations < 1 || settings.largestUpdates < 0 ||
+      !(settings.largestWork >= 0))
     throw std::invalid_argument(
         "a contact solve needs a positive tolerance, at least one iteration and no negative number "
-        "of updates");
+        "of updates or flops");
   conditions_.resize(capacity);
   status_.resize(capacity, ContactStatus::Open);
   wanted_.resize(capacity);
@@ -143,6 +143,16 @@ double FrictionalContactSolver::largestForce() const noexcept {
   return std::sqrt(largest);
 }
 
+/// Flops of going over the compliance so many times.
+double FrictionalContactSolver::passes(double count) const noexcept {
+  return 18 * count * this->count() * this->count();
+}
+
+bool FrictionalContactSolver::hasWorkFor(double flops) const noexcept {
+  return settings_.largestWork == 0 ||
+         2 * work().multiplications - workBefore_ + flops <= settings_.largestWork;
+}
+
 void FrictionalContactSolver::updateDisplacements() noexcept {
   compliance_->multiply(forces_.data(), displacement_.data());
 }
@@ -186,6 +196,8 @@ int FrictionalContactSolver::renew(int mostUpdates) noexcept {
   const int most = std::min(stale, mostUpdates);
   int done = 0;
   for (int looked = 0; looked < count() && done < most; ++looked) {
+    if (inverse_.updates() > updatesBefore_ && !hasWorkFor(inverse_.workOfUpdate() + passes(2)))
+      break;
     cursor_ = (cursor_ + 1) % count();  // on from the last, so that none waits for ever
     if (!isStale(cursor_)) continue;
     inverse_.update(cursor_, wanted_[cursor_]);
@@ -236,9 +248,7 @@ void FrictionalContactSolver::newtonStep() noexcept {
 bool FrictionalContactSolver::freshStep(Stage stage) noexcept {
   double active = 0;
   for (int i = 0; i < count(); ++i) active += status_[i] != ContactStatus::Open;
-  const double work = active * active * active;
-  if (settings_.largestUpdates > 0 && fresh_ + work > kFreshWork) return false;
-  fresh_ += work;
+  if (!hasWorkFor(ContactNewtonInverse::workOfRebuild(active) + passes(4))) return false;
   inverse_.rebuild(wanted_);
   const int size = 3 * count();
   const double before = residual_.head(size).norm();
@@ -271,7 +281,7 @@ void FrictionalContactSolver::damp(double before) noexcept {
   const int size = 3 * count();
   step_.head(size) = forces_.head(size) - start_.head(size);
   double share = 1;
-  for (int k = 0; k < kHalvings; ++k) {
+  for (int k = 0; k < kHalvings && hasWorkFor(passes(3)); ++k) {
     evaluate();
     own_.add(kHalving * count(), 0);
     if (residual_.head(size).norm() <= (1 - kArmijo * share) * before) return;
@@ -296,7 +306,8 @@ void FrictionalContactSolver::sweep() noexcept {
 FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexcept {
   if (stage == Stage::Whole) return Stage::Damped;
   evaluate();
-  for (int k = 0; k < kSweeps; ++k) sweep();
+  sweep();  // at least one, so that solves that are cut get on
+  for (int k = 1; k < kSweeps && hasWorkFor(passes(3)); ++k) sweep();
   return stage == Stage::Kept ? Stage::Whole : Stage::Kept;
 }
 
@@ -333,13 +344,16 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
       settings_.largestUpdates > 0 ? settings_.largestUpdates : std::numeric_limits<int>::max();
   constexpr double none = std::numeric_limits<double>::infinity();
   double best = none, goal = none, last = none;  // goal: best of this stage
-  double bestOfRound = none;
+  double bestOfRound = none, first = none;
+  bool isSpent = false;  // the work
   Stage stage = Stage::Kept;
   int withoutGain = unsettled_ ? kPatience + 1 : 0;
-  fresh_ = 0;
+  updatesBefore_ = inverse_.updates();
+  workBefore_ = 2 * work().multiplications;
   best_.head(size).setZero();
   for (;; ++certificate.iterations) {
     const double residual = evaluate();
+    if (certificate.iterations == 0) first = residual;
     if (residual < best) {
       best = residual;
       best_.head(size) = forces_.head(size);
@@ -348,7 +362,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
       withoutGain = residual < kEnoughGain * goal ? 0 : withoutGain + 1;
     goal = std::min(goal, residual);
     if (residual <= settings_.tolerance / 2 * largest_) break;  // the rest is for the cones
-    certificate.budgetCut = certificate.iterations == settings_.largestIterations;
+    isSpent = certificate.iterations > 0 && !hasWorkFor(passes(3));
+    certificate.budgetCut = isSpent || certificate.iterations == settings_.largestIterations;
     if (certificate.budgetCut) break;
     const bool isStuck = withoutGain > (stage == Stage::Kept ? kPatience : kFreshPatience) ||
                          !std::isfinite(residual);
@@ -368,7 +383,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     if (stage != Stage::Kept) continue;
     updatesLeft -= renew(updatesLeft);
     // Where the steps gain little, rows that hardly changed or have drifted are worth a refresh.
-    if (residual > kEnoughGain * last && updatesLeft > 0) {
+    if (residual > kEnoughGain * last && updatesLeft > 0 &&
+        hasWorkFor(inverse_.workOfUpdate() + passes(2))) {
       const int oldest = mostOutdated();
       inverse_.update(oldest, wanted_[oldest]);
       --updatesLeft;
@@ -376,7 +392,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     last = residual;
     newtonStep();
   }
-  forces_.head(size) = best_.head(size);
+  // Where there is work for a sweep or two a solve, these may have to lead away first.
+  if (!isSpent || !unsettled_ || best < first) forces_.head(size) = best_.head(size);
   certificate.coneViolation = clipped();
   const double residual = evaluate();
   certificate.residual = residual > 0 ? residual / largest_ : residual;

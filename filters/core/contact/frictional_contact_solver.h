@@ -26,15 +26,21 @@ struct ContactConditions {
 
 enum class ContactStatus { Open, Stick, Slip };
 
-/// Limits of one solve.
+/// Limits of one solve. As they are by default a servo loop can wait for it; a solve that is cut is
+/// certified so, and the next one goes on from it.
 struct ContactSolverSettings {
   /// Of |f - P(f - r v)|, the residual of the projection form, over the largest force.
   double tolerance = 1e-9;
   int largestIterations = 100;
   /// Rank-three updates of the inverse in one solve while it is kept; 0 for no limit, then it may
-  /// also be factored by LAPACK. With a limit, making it anew where steps do not gain is bounded by
-  /// some 2e7 flops a solve.
-  int largestUpdates = 0;
+  /// also be factored by LAPACK, which allocates and locks: not for a servo loop.
+  int largestUpdates = 12;
+  /// Flops of one solve, counted, so that equal input is cut at equal places whatever the machine;
+  /// 0 for no limit. One iteration with one update is always made, and what ends the solve.
+  double largestWork = 2e7;
+
+  /// Those of whoever can wait for the last digit, in batch.
+  static ContactSolverSettings unhurried() { return {1e-9, 100, 0, 0}; }
 };
 
 /// Unilateral contact with Coulomb friction between elastic bodies and obstacles (Signorini and
@@ -52,18 +58,18 @@ struct ContactSolverSettings {
 /// on from the best point so far, in turn, as in the hybrids that V. Acary, M. Bremond and O. Huber
 /// found the most robust ("On solving contact problems with Coulomb friction: formulations and
 /// numerical comparisons", in: Advanced Topics in Nonsmooth Dynamics, 2018): sweeps of nonlinear
-/// Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)), and, where few contacts
-/// bear forces, Newton's steps with the inverse made afresh for each, whole at first, then damped
-/// by Armijo's rule on the norm of the residual. With a limit to updates a solve ends as well, cut,
-/// when they are used up and a round of sweeps no longer halves the residual. Contacts may depend
-/// on each other: the matrix is regularised, the residual is not.
+/// Gauss-Seidel (M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999)), and, where the work
+/// left allows it, Newton's steps with the inverse made afresh for each, whole at first, then
+/// damped by Armijo's rule on the norm of the residual. With a limit to updates a solve ends as
+/// well, cut, when they are used up and a round of sweeps no longer halves the residual. Contacts
+/// may depend on each other: the matrix is regularised, the residual is not.
 ///
 /// All memory is reserved by the constructor; nothing else allocates or throws. The work of a solve
 /// is bounded by its settings alone, so that equal input gives equal output bit by bit.
 class FrictionalContactSolver {
  public:
   /// @throws as ContactCompliance; std::invalid_argument for a tolerance that is not positive or
-  ///         limits below one (updates: below zero).
+  ///         limits below one (updates and work: below zero).
   FrictionalContactSolver(std::vector<std::shared_ptr<const GreensFunctions>> bodies,
                           double rigidStiffness, int capacity, ContactSolverSettings settings = {});
 
@@ -124,6 +130,8 @@ class FrictionalContactSolver {
   void damp(double before) noexcept;
   void sweep() noexcept;
   double largestForce() const noexcept;
+  double passes(double count) const noexcept;
+  bool hasWorkFor(double flops) const noexcept;
 
   std::unique_ptr<ContactCompliance> compliance_;  ///< stays where it is when this moves
   ContactSolverSettings settings_;
@@ -134,12 +142,13 @@ class FrictionalContactSolver {
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
   Eigen::VectorXd forces_, displacement_, residual_, best_;
   Eigen::VectorXd start_, step_;  ///< of a damped step
-  double fresh_ = 0;    ///< sum of the cubes of contacts, of inverses made afresh in this solve
-  int cursor_ = 0;      ///< contact whose rows were replaced last because they were stale
-  int refreshed_ = 0;   ///< and because steps did not gain
-  double largest_ = 0;  ///< force at the last evaluation, N
-  mutable ContactWork own_;  ///< of vectors
-  bool unsettled_ = false;   ///< whether the last solve was cut
+  long updatesBefore_ = 0;        ///< of the inverse, before this solve
+  double workBefore_ = 0;         ///< flops before this solve
+  int cursor_ = 0;                ///< contact whose rows were replaced last because they were stale
+  int refreshed_ = 0;             ///< and because steps did not gain
+  double largest_ = 0;            ///< force at the last evaluation, N
+  mutable ContactWork own_;       ///< of vectors
+  bool unsettled_ = false;        ///< whether the last solve was cut
 };
 
 }  // namespace palpate

@@ -338,7 +338,14 @@ UnilateralContactSettings readSolver(const Json& value) {
   readIf(section, "linearisations", solver.linearisations, readInteger, 1, 20);
   readIf(section, "tolerance", solver.solver.tolerance, readPositive, 1);
   readIf(section, "largest_iterations", solver.solver.largestIterations, readInteger, 1, 1000000);
-  readIf(section, "largest_updates", solver.solver.largestUpdates, readInteger, 0, 1000000);
+  readIf(section, "largest_updates", [&](const Json& found, const std::string& at) {
+    solver.solver.largestUpdates = readInteger(found, at, 0, 1000000);
+    if (solver.solver.largestUpdates == 0)
+      refuseKey(at,
+                "must be at least 1: without a limit the servo loop would wait for LAPACK, which "
+                "allocates and locks; leave it out for the default, 12");
+  });
+  readIf(section, "largest_work", solver.solver.largestWork, readPositive, 1e15);
   section.requireNothingElse();
   return solver;
 }

@@ -127,7 +127,8 @@ struct SceneEffects {
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
 /// - "solver", of tools with a shape: {"capacity" (as many contacts as the model has vertices, from
 ///   128 to 500), "margin" in m (half an edge), "linearisations" (1), "tolerance" (1e-9),
-///   "largest_iterations" (100), "largest_updates" (0)}: UnilateralContactSettings.
+///   "largest_iterations" (100), "largest_updates", at least 1 (12), "largest_work" in flops (2e7)}:
+///   UnilateralContactSettings.
 struct Scene {
   std::vector<SceneModel> models;
   std::vector<SceneTool> tools;

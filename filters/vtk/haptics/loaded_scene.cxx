@@ -62,7 +62,6 @@ LoadedScene mouseScene()
   scene.effects.friction = DefaultFriction;
   scene.effects.maskRadiusEdges = DefaultMaskEdges;
   scene.effects.torque = true;
-  scene.solver.solver.largestUpdates = 12;
   return { std::move(scene), {}, nullptr };
 }
 
