@@ -117,7 +117,7 @@ TEST_F(AHandThatFeels, AMissedTickDoesNotLetTheForceChangeFaster) {
   tickUntilItRenders();
   request_.wanted.force = {-2, 1, 0};
   const Vector3d last = safety_.limit(request_, 0).force;
-  EXPECT_LE((tick(50 * kPeriod).force - last).norm(), settings_.forceSlew * kPeriod * (1 + 1e-12));
+  EXPECT_LE((tick(15 * kPeriod).force - last).norm(), settings_.forceSlew * kPeriod * (1 + 1e-12));
 }
 
 TEST_F(AHandThatFeels, AForceThatFadesLinearlyToExactlyZeroAfterAPoseThatIsNotValid) {
@@ -344,7 +344,7 @@ TEST_F(AHandThatFeels, ADeviceOfLessThanFiftyReportsASecondGetsNoForceAndThatIsT
 TEST_F(AHandThatFeels, ATickThatComesLateIsOfTheDeviceNoMoreThanAReportThatIsMissing) {
   tickUntilItRenders();
   const double before = tick().force.norm();
-  EXPECT_EQ(silentTick(50 * kPeriod).force.norm(), before);
+  EXPECT_EQ(silentTick(15 * kPeriod).force.norm(), before);
   EXPECT_EQ(tick().force.norm(), before);
   EXPECT_EQ(faults(Fault::Silent), 0);
 }
@@ -413,6 +413,41 @@ TEST_F(AHandThatFeels, ManyLateSolvesInARowAreAFaultAndFewAreNot) {
   EXPECT_EQ(faults(Fault::LateSolves), 0);
   request_.late = false;
   tick();
+}
+
+/// However the periods are shared among ticks: the hand has felt one force all the while.
+TEST_F(AHandThatFeels, OneTickOfManyPeriodsIsTheFaultThatManyLateOnesAre) {
+  for (const int ticks : {1, 2, 4, 5, 10}) {
+    tickUntilItRenders();
+    const auto before = faults(Fault::LateSolves);
+    request_.late = true;
+    request_.taken = 20 / ticks * kPeriod;
+    for (int i = 1; i < ticks; ++i) EXPECT_EQ(tick().force, request_.wanted.force) << ticks;
+    EXPECT_EQ(faults(Fault::LateSolves), before) << ticks;
+    const Vector3d force = tick().force;
+    EXPECT_EQ(faults(Fault::LateSolves), before + 1) << ticks;
+    if (ticks <= 2) {
+      EXPECT_EQ(force, Vector3d::Zero()) << "held for longer than a force fades";
+    }
+    request_.late = false;
+    request_.taken = 0;
+    for (int i = 0; i < 10 && safety_.report().phase == SafetyPhase::Fading; ++i) tick();
+    EXPECT_EQ(safety_.report().phase, SafetyPhase::Settling);
+    expectToReturnByARamp();
+  }
+}
+
+/// A loop that was not let run, or waited for something, computed little in that time.
+TEST_F(AHandThatFeels, AForceThatWasHeldForManyPeriodsIsAFaultWhateverTheTickComputed) {
+  tickUntilItRenders();
+  EXPECT_EQ(tick(19 * kPeriod).force, request_.wanted.force);
+  EXPECT_EQ(faults(Fault::LateSolves), 0);
+  EXPECT_EQ(tick(20 * kPeriod).force, Vector3d::Zero());
+  EXPECT_EQ(faults(Fault::LateSolves), 1);
+  expectToReturnByARamp();
+  request_.taken = 20 * kPeriod;
+  EXPECT_EQ(tick().force, Vector3d::Zero());
+  EXPECT_EQ(faults(Fault::LateSolves), 2);
 }
 
 /// What was cut near its tolerance presses as it should.

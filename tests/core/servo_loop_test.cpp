@@ -408,6 +408,28 @@ TEST_F(AServoLoop, AGraphicsThreadThatStallsHoldsUpNothing) {
   loop.stop();
 }
 
+/// A step that waits computes nothing meanwhile, and the hand feels the force before it.
+TEST_F(AServoLoop, OneTickOfManyPeriodsEndsInAFaultAndNoForce) {
+  std::atomic<bool> waits{false};
+  wall_->onStep = [&] {
+    if (waits.exchange(false)) sleepFor(0.05);
+  };
+  ServoLoop loop(wall_, tools());
+  startAndTick(loop);
+  const auto rendering = [&] {
+    loop.update();
+    return loop.latest().tools[0].safety.phase == SafetyPhase::Rendering;
+  };
+  ASSERT_TRUE(eventually(rendering));
+  waits = true;
+  EXPECT_TRUE(eventually([&] {
+    loop.update();
+    const ToolReport& tool = loop.latest().tools[0];
+    return tool.safety.fault == Fault::LateSolves && tool.rendered.force == Vector3d::Zero();
+  }));
+  EXPECT_TRUE(eventually(rendering)) << "it recovers";
+}
+
 TEST_F(AServoLoop, AModelThatTakesTooLongIsCountedReportedAndFadedOut) {
   std::atomic<bool> slow{true};
   wall_->onStep = [&] {

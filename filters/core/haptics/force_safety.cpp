@@ -166,16 +166,21 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
   return admitted_;
 }
 
-Fault ForceSafety::judgeSolve(const Request& request) noexcept {
+/// @param held  s, the last force has been rendered for.
+Fault ForceSafety::judgeSolve(const Request& request, double held) noexcept {
   const bool failed = request.certificate.failed || !isFinite(request.wanted);
   failed_ = failed ? std::min(failed_ + 1, settings_.failedSolves) : 0;
   const bool rough =
       request.certificate.budgetCut && !(request.certificate.residual <= settings_.roughResidual);
-  const Fault doubt = request.late                   ? Fault::LateSolves
+  const double periods = held / period_ + kRounding;
+  const bool stood = periods >= settings_.lateSolves;
+  const Fault doubt = request.late || stood          ? Fault::LateSolves
                       : rough                        ? Fault::RoughSolves
                       : request.certificate.heldBack ? Fault::HeldBack
                                                      : Fault::None;
-  late_ = doubt != Fault::None ? std::min(late_ + 1, settings_.lateSolves) : 0;
+  const double most = settings_.lateSolves - late_;
+  const double ticks = doubt == Fault::LateSolves ? std::max(1.0, std::floor(periods)) : 1;
+  late_ = doubt != Fault::None ? late_ + static_cast<int>(std::min(ticks, most)) : 0;
   if (request.certificate.uncomputed) return Fault::Uncomputed;
   if (request.certificate.startedInside) return Fault::StartedInside;
   if (failed_ >= settings_.failedSolves) return Fault::FailedSolves;
@@ -252,7 +257,8 @@ void ForceSafety::endWith(Fault fault) noexcept {
 }
 
 const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcept {
-  const Fault solveFault = judgeSolve(request);
+  const double held = std::max(elapsed, request.taken);
+  const Fault solveFault = judgeSolve(request, held);
   Fault fault = poseFault_;
   if (fault == Fault::None) fault = solveFault;
   if (fault == Fault::None && undelivered_ >= settings_.undeliveredTicks)
@@ -264,9 +270,9 @@ const Wrench& ForceSafety::limit(const Request& request, double elapsed) noexcep
     report_.phase = SafetyPhase::Settling;
   } else if (fault != Fault::None || request.paused || report_.phase == SafetyPhase::Fading) {
     endWith(fault);
-    fade(true, elapsed);
+    fade(true, held);
   } else if (failed_ > 0 || silentShare() < 1 - kRounding) {
-    fade(false, elapsed);
+    fade(false, held);
   } else {
     render(request.wanted);
   }

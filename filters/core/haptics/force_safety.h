@@ -31,7 +31,9 @@ struct SafetySettings {
   double longestInterval = 0.02;  ///< s; a device that reports less often gets no force; a fault
   int undeliveredTicks = 3;       ///< in a row are a fault
   int failedSolves = 3;           ///< in a row are a fault; the force fades from the first on
-  int lateSolves = 20;            ///< late, rough or held back, in a row, are a fault
+  /// Ticks late, rough or held back, in a row, are a fault, and so is one that takes as many
+  /// periods.
+  int lateSolves = 20;
   /// Residual above which a solve that was cut is rough. Up to a thousandth of the largest
   /// contact's force, what a hand feels is right to about as much of the whole.
   double roughResidual = 1e-3;
@@ -77,6 +79,10 @@ struct SafetyReport {
 /// Decides what force one hand gets. Threads and clocks are no part of it: the same calls give the
 /// same forces.
 ///
+/// A tick that is late counts as as many as the periods it takes. Of one that is not, by its own
+/// computing time, but ends after lateSolves periods, or begins as long after the last, the force
+/// has been held all the while: that is the same fault, and the force is zero at once.
+///
 /// After a fault the force is f0 (1 - t/fadeSeconds), f0 the last one without fault, and so exactly
 /// zero in time from any force, also where the fault is a pose that is not valid; a device that is
 /// gone makes it zero in the same tick. Silence is counted in the device's own ReportInterval, a
@@ -107,6 +113,7 @@ class ForceSafety {
     Wrench wanted = kNoWrench;
     ContactCertificate certificate;
     bool late = false;    ///< whether the tick is over its budget
+    double taken = 0;     ///< s since the tick began, by the clock: the last force is as old
     bool paused = false;  ///< fade and stay at zero, without a fault
   };
 
@@ -121,7 +128,7 @@ class ForceSafety {
 
  private:
   Fault judge(const ToolPose& pose) noexcept;
-  Fault judgeSolve(const Request& request) noexcept;
+  Fault judgeSolve(const Request& request, double held) noexcept;
   double silentShare() const noexcept;
   void fade(bool latch, double elapsed) noexcept;
   void render(const Wrench& wanted) noexcept;

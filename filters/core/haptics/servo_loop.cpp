@@ -208,9 +208,9 @@ void ServoLoop::run() noexcept {
 }
 
 /// @param periods  since the last tick began: 1, or more if some were missed.
-/// @param timed    whether its computing time counts.
+/// @param timed    whether its time counts.
 void ServoLoop::tick(std::int64_t periods, bool timed) noexcept {
-  const std::int64_t begin = threadNanoseconds();
+  const std::int64_t begin = threadNanoseconds(), beginOnClock = nowNanoseconds();
   const double elapsed = static_cast<double>(periods) * period_;
   if (Stage* stage = pending_.exchange(nullptr, std::memory_order_acq_rel)) stage_ = stage;
   commands_.takeAll(*this);
@@ -223,6 +223,7 @@ void ServoLoop::tick(std::int64_t periods, bool timed) noexcept {
     request.certificate = stage_->model->step(stage_->poses.data(), stage_->wrenches.data());
   request.late =
       timed && 1e-9 * static_cast<double>(threadNanoseconds() - begin) > settings_.budget * period_;
+  if (timed) request.taken = 1e-9 * static_cast<double>(nowNanoseconds() - beginOnClock);
   writeHands(request, elapsed);
   if (tick_ % settings_.snapshotTicks == 0) publish();
 

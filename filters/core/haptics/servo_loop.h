@@ -31,7 +31,8 @@ struct ServoTool {
 struct ServoSettings {
   double rate = 1000;  ///< Hz, 250 to 10000
   /// Share of a period that a tick may compute; 20 (SafetySettings::lateSolves) longer ones in a
-  /// row are a fault. Judged by the thread's own computing time, and only on the real clock.
+  /// row are a fault. Judged by the thread's own computing time, and only on the real clock. By the
+  /// clock itself a tick that takes 20 periods, or begins 20 after the last, is the same fault.
   double budget = 0.7;
   int snapshotTicks = 1;  ///< a snapshot is published every so many ticks
   /// N s/m in the device's frame, the most that passivityDamping may add against energy that a
