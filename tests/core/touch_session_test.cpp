@@ -260,6 +260,23 @@ TEST(TouchSessions, PartnersMeetTheFirstAndDeform) {
   EXPECT_GT(session.displacement(1)(2, pole), 0);
 }
 
+TEST(TouchSessions, TellOfBodiesThatOverlapBeforeTheyAreTouched) {
+  const TouchedBody body = touchedSphere(2, true);
+  const std::vector<SceneBody> bodies(2, {body.greens, body.mesh});
+  const auto warnings = [&](const std::string& height) {
+    return warningsOf(parseScene(sceneText(kBall, "\"elastic_elastic\": true",
+                                           "{\"file\": \"a\"}, {\"file\": \"b\", \"position\": "
+                                           "[0, 0, " +
+                                               height + "]}")),
+                      bodies);
+  };
+  EXPECT_TRUE(warnings("2.1").empty());
+  for (const std::string height : {"1.9", "1.2", "0.1"}) {
+    ASSERT_EQ(warnings(height).size(), 1u) << height;
+    EXPECT_NE(warnings(height)[0].find("model 1 overlaps the first by"), std::string::npos);
+  }
+}
+
 /// What is touched hangs under its weight: a ball finds the sagged surface, not the given one.
 TEST(TouchSessions, TouchTheSurfaceAsItHangs) {
   const TouchedBody body = touchedSphere(2, true);

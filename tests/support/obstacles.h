@@ -28,8 +28,9 @@ inline RigidPose at(double x, double y, double z) {
   return pose;
 }
 
-inline std::vector<Obstacle> ball(double radius, double friction = 0) {
-  return {{std::make_shared<SphereShape>(radius), friction}};
+/// @param tool  its number, as those of ToolTouch have one; -1 for none.
+inline std::vector<Obstacle> ball(double radius, double friction = 0, int tool = -1) {
+  return {{std::make_shared<SphereShape>(radius), friction, nullptr, nullptr, tool}};
 }
 
 /// The half space above a height, as a tool that comes down on the pole.

@@ -15,7 +15,8 @@ struct ContactCertificate {
   bool heldBack = false;   ///< whether a point that should slide has gone nowhere
   /// Whether contacts were left out for want of capacity: too small a force.
   bool truncated = false;
-  /// Whether a point was inside the body when its touch began: its force grows from zero.
+  /// Whether a point, or a tool with a shape, was inside the body when its touch began: its force
+  /// grows from zero.
   bool startedInside = false;
   bool failed = false;  ///< no usable force
   /// Whether it failed where Green's functions are needed that were not computed.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,12 +29,19 @@ class MeshShape final : public RigidShape {
   /// 0 if normals on both sides of a convex edge differ by more than 30 degrees; else the least of
   /// the radii by which they turn between the triangles' centres.
   double smallestRadius() const noexcept override { return smallestRadius_; }
+  /// Some of many vertices.
+  int coreCount() const noexcept override { return std::min(kMostCorePoints, vertexCount()); }
+  Eigen::Vector3d core(int k) const noexcept override {
+    return locator_.mesh().points().col(std::int64_t(k) * vertexCount() / coreCount());
+  }
   bool isFaceted() const noexcept override { return true; }
   /// Interpolated between the corners' normals, angle-weighted over a smooth patch each; on the
   /// patch's rim the proximity's own.
   Eigen::Vector3d smoothNormal(const Proximity& near) const noexcept override;
 
  private:
+  static constexpr int kMostCorePoints = 500;
+  int vertexCount() const noexcept { return locator_.mesh().vertexCount(); }
   Eigen::Vector3d pseudonormal(const SurfacePoint& point) const noexcept;
 
   SurfaceLocator locator_;

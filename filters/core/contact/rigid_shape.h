@@ -42,6 +42,11 @@ class RigidShape {
   /// Of what sticks out of the shape, m; 0 for edges. Finer meshes than this meet it with their
   /// vertices.
   virtual double smallestRadius() const noexcept = 0;
+  /// Points in the shape's frame such that it holds all within coreRadius() of each, and not much
+  /// else: a ball's centre, points of a capsule's axis, vertices of a mesh; none of a half space.
+  virtual int coreCount() const noexcept { return 0; }
+  virtual Eigen::Vector3d core(int) const noexcept { return Eigen::Vector3d::Zero(); }
+  virtual double coreRadius() const noexcept { return 0; }  ///< m
   /// Whether it is made of flat facets: then its normal jumps from place to place, and what lies
   /// deepest in it is searched for.
   virtual bool isFaceted() const noexcept { return false; }
@@ -59,6 +64,8 @@ class SphereShape final : public RigidShape {
   Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override { return radius_; }
   double smallestRadius() const noexcept override { return radius_; }
+  int coreCount() const noexcept override { return 1; }
+  double coreRadius() const noexcept override { return radius_; }
 
  private:
   double radius_;
@@ -74,8 +81,14 @@ class CapsuleShape final : public RigidShape {
   Eigen::Vector3d deepest(const Eigen::Matrix3d& corners) const noexcept override;
   double reach() const noexcept override;
   double smallestRadius() const noexcept override { return radius_; }
+  int coreCount() const noexcept override { return kCorePoints; }
+  Eigen::Vector3d core(int k) const noexcept override {
+    return from_ + double(k) / (kCorePoints - 1) * axis_;
+  }
+  double coreRadius() const noexcept override { return radius_; }
 
  private:
+  static constexpr int kCorePoints = 9;
   Eigen::Vector3d from_, axis_;
   double radius_;
 };

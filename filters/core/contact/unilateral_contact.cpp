@@ -56,6 +56,7 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
                                      std::vector<Obstacle> obstacles,
                                      const UnilateralContactSettings& settings)
     : mesh_(std::move(mesh)),
+      locator_(mesh_),
       settings_(settings),
       solver_(bodiesOf(greens, obstacles), rigidStiffnessOf(*greens, *mesh_, settings),
               settings.capacityFor(mesh_->vertexCount()), settings.solver) {
@@ -81,6 +82,7 @@ UnilateralContact::UnilateralContact(std::shared_ptr<const GreensFunctions> gree
       partOf_.emplace_back(mesh_->vertexCount(), -1);
     obstacles_.push_back(std::move(moving));
   }
+  taken_.resize(obstacles_.size());
   findLargeTriangles();
   anchors_.resize(capacity());
   isHeldVertex_.assign(mesh_->vertexCount(), false);
@@ -233,7 +235,8 @@ void UnilateralContact::settle() noexcept {
   }
 }
 
-ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
+ContactCertificate UnilateralContact::step(const RigidPose* given) noexcept {
+  const RigidPose* const poses = broughtIn(given);
   wasTruncated_ = isTruncated_;
   isTruncated_ = isUnserved_ = false;
   hold();
@@ -256,6 +259,7 @@ ContactCertificate UnilateralContact::step(const RigidPose* poses) noexcept {
     certificate.budgetCut = certificate.budgetCut || cut;
   }
   certificate.truncated = isTruncated_;
+  certificate.startedInside = startedInside_;
   certificate.uncomputed = isUnserved_;
   certificate.failed = certificate.failed || isUnserved_;
   settle();

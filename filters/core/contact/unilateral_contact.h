@@ -11,6 +11,7 @@
 #include "contact/unilateral_contact_settings.h"
 #include "contact/unilateral_contact_state.h"
 #include "contact/wrench.h"
+#include "mesh/surface_locator.h"
 #include "mesh/surface_mesh.h"
 
 namespace palpate {
@@ -44,6 +45,11 @@ namespace palpate {
 ///
 /// Of two elastic bodies the vertices of the first meet the surface of the second: the finer mesh
 /// should be the first.
+///
+/// What is deep in the body when contact begins, by half its radius or, of tools of facets and
+/// other bodies, half an edge, tells nothing of where it came from: the surface would be pressed to
+/// any side. It is taken to have come from the nearest place outside, and brought in from there by
+/// and by, so that forces grow from zero; the certificate of the first step says startedInside.
 ///
 /// Where there is no room for all, those stay that bear a force, then those that lie deepest, so
 /// that the force goes on without a jump; the certificate says truncated while any that was left
@@ -133,6 +139,14 @@ class UnilateralContact {
   /// normal and the way out of the obstacle. Corners look aside.
   static constexpr double kLargestCosine = 0.5;
 
+  struct Depth {
+    double depth = 0;                                ///< m, negative or 0: outside
+    Eigen::Vector3d way = Eigen::Vector3d::UnitZ();  ///< out
+  };
+  Depth depthOf(int obstacle, const RigidPose& pose) const noexcept;
+  Eigen::Vector3d wayOut(int obstacle, const RigidPose& pose) const noexcept;
+  const RigidPose* broughtIn(const RigidPose* poses) noexcept;
+
   void advance(const RigidPose* poses) noexcept;
   double wayOf(int obstacle, const RigidPose& pose) const noexcept;
   void turnBodies(const RigidPose* poses) noexcept;
@@ -182,8 +196,11 @@ class UnilateralContact {
   ContactSite siteAt(int obstacle, int vertex, const Proximity& near) const noexcept;
 
   std::shared_ptr<const SurfaceMesh> mesh_;
+  SurfaceLocator locator_;
   UnilateralContactSettings settings_;
   std::vector<MovingObstacle> obstacles_;
+  std::vector<RigidPose> taken_;  ///< of each obstacle, with its `away`
+  bool startedInside_ = false;    ///< in this step
   FrictionalContactSolver solver_;
   std::vector<ContactAnchor> anchors_;
   std::vector<int> loadedNodes_;  ///< free ones of the first body, of all forces

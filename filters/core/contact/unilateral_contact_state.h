@@ -16,7 +16,10 @@ struct MovingObstacle {
   int body = 0;  ///< number of an elastic obstacle among the bodies
   RigidPose pose;
   bool placed = false;
+  /// m, to where it is taken to be while it is brought into a body in which it began.
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();
   bool isHeld = false;             ///< whether it holds what it touches
+  bool isMany = false;             ///< of facets, or one of a tool's several parts
   std::vector<double> lookAt;      ///< a vertex: travelled_ at which to look again
   std::vector<char> isWatched;     ///< a vertex
   std::vector<int> large;          ///< triangles to be touched inside

@@ -14,6 +14,7 @@
 #include "haptics/hand_tool.h"
 #include "haptics/point_touch.h"
 #include "haptics/tool_touch.h"
+#include "mesh/surface_locator.h"
 #include "mesh/surface_point.h"
 
 namespace palpate {
@@ -155,6 +156,37 @@ std::shared_ptr<TouchModel> toolTouch(
   return touch;
 }
 
+/// How deep vertices of a body lie in another, m.
+double overlap(const SurfaceMesh& body, const RigidPose& bodyPose, const SurfaceMesh& other,
+               const RigidPose& otherPose) {
+  if (other.rims() == Rims::Allowed) return 0;
+  const SurfaceLocator locator(std::make_shared<const SurfaceMesh>(other));
+  double deepest = 0;
+  for (int vertex = 0; vertex < body.vertexCount(); ++vertex) {
+    const Eigen::Vector3d place = otherPose.toOwn(bodyPose.toWorld(body.points().col(vertex)));
+    if (locator.isInside(place))
+      deepest = std::max(deepest, (placeOf(other, locator.nearest(place)) - place).norm());
+  }
+  return deepest;
+}
+
+/// Of partners that overlap what is touched before any tool does.
+void warnOfOverlaps(const Scene& scene, const std::vector<SceneBody>& bodies,
+                    std::vector<std::string>& warnings) {
+  constexpr double worthTelling = 1e-3;  // of an edge
+  const SurfaceMesh& first = *bodies[0].mesh;
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const SurfaceMesh& other = *bodies[i].mesh;
+    const RigidPose& pose = scene.models[i].pose;
+    const double depth = std::max(overlap(other, pose, first, {}), overlap(first, {}, other, pose));
+    if (depth > worthTelling * first.meanEdgeLength())
+      warnings.push_back("the scene's model " + std::to_string(i) + " overlaps the first by " +
+                         text(depth) +
+                         " m: they press on each other before they are touched; its "
+                         "position moves it away");
+  }
+}
+
 }  // namespace
 
 Eigen::Matrix3Xd placesInside(const Scene& scene) {
@@ -195,6 +227,7 @@ std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneB
                          " m is much smaller than the model's edges, " + text(edge) +
                          " m: the force depends on the mesh; `palpate refine` makes it finer");
   };
+  warnOfOverlaps(scene, bodies, warnings);
   for (const SceneTool& tool : scene.tools)
     warnIf(tool.radius > 0 && tool.radius < coarse * edge, "a tool", tool.radius);
   const double mask = scene.isOfPoints() ? maskRadiusOf(scene.effects, *bodies[0].mesh) : 0;

@@ -31,7 +31,7 @@ Eigen::Matrix3Xd placesInside(const Scene& scene);
 void requireTouchable(const SceneBody& body);
 
 /// What a user should know of a scene before relying on its forces, a sentence each: Green's
-/// functions that are missing, tools and masks that the mesh is too coarse for.
+/// functions that are missing, bodies that overlap, tools and masks that the mesh is too coarse for.
 std::vector<std::string> warningsOf(const Scene& scene, const std::vector<SceneBody>& bodies);
 
 /// A scene at work: the model that a servo loop steps, and the displacements that a slower thread
