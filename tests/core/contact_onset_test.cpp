@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Palpate contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Balls from a tenth of an edge to ten: when they are first felt, and how their force goes on.
+// Balls from a tenth of an edge to ten: when they are first felt, and how their force goes on. They
+// have a tool's number, as those of scenes.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ const TouchedBody& cube() {
 
 /// How deep a ball comes at a place of the top face, in steps of a thousandth, until it is felt.
 double onset(double radius, double x, double y) {
-  UnilateralContact contact(cube().greens, cube().mesh, ball(radius), {});
+  UnilateralContact contact(cube().greens, cube().mesh, ball(radius, 0, 0), {});
   const double step = 1e-3 * std::min(radius, kEdge);
   for (int tick = -100;; ++tick) {
     const RigidPose pose = at(x, y, 1 + radius - step * tick);
@@ -66,7 +67,7 @@ TEST(ContactOnset, TheForceHasNoJumpsWhileABallSlides) {
         const std::string what = std::to_string(edges) + " edges, friction " +
                                  std::to_string(friction) + ", depth " + std::to_string(share);
         const double radius = edges * kEdge, depth = share * std::min(radius, kEdge);
-        UnilateralContact contact(cube().greens, cube().mesh, ball(radius, friction), {});
+        UnilateralContact contact(cube().greens, cube().mesh, ball(radius, friction, 0), {});
         double stiffness = 0, largest = 0;
         Eigen::Vector3d last = Eigen::Vector3d::Zero();
         for (int tick = 0; tick <= 100; ++tick) {
@@ -88,6 +89,36 @@ TEST(ContactOnset, TheForceHasNoJumpsWhileABallSlides) {
       }
 }
 
+/// Much smaller than what it slides over, a ball goes from one triangle to the next within a step:
+/// the same whether it is a tool of one part or none.
+TEST(ContactOnset, ATinyBallCrossesEdgesWithoutAJump) {
+  constexpr double radius = 0.02 * kEdge, depth = 0.05 * radius, step = 0.002 * kEdge;
+  for (const int tool : {-1, 0}) {
+    double largest = 0;
+    for (int run = 0; run < 6; ++run) {
+      const double angle = 1.1 * run, x = 0.5 - 0.02 * run, y = 0.47 + 0.01 * run;
+      UnilateralContact contact(cube().greens, cube().mesh, ball(radius, 0, tool), {});
+      double stiffness = 0;
+      Eigen::Vector3d last = Eigen::Vector3d::Zero();
+      for (int tick = -100; tick < 400; ++tick) {
+        const double in = std::min(0, tick) / 100., along = step * std::max(0, tick);
+        const RigidPose pose = above(radius, depth * (1 + in), x + std::cos(angle) * along,
+                                     y + std::sin(angle) * along);
+        contact.step(&pose);
+        const double change = (contact.force(0) - last).norm();
+        if (tick <= 0)
+          stiffness = std::max(stiffness, change / (depth / 100));
+        else
+          largest = std::max(largest, change / (stiffness * step));
+        last = contact.force(0);
+        EXPECT_TRUE(tick < 0 || last.z() > 0) << tool << ' ' << run << ' ' << tick;
+      }
+    }
+    EXPECT_LE(largest, 0.05) << tool;
+    RecordProperty("largest change, tool " + std::to_string(tool), std::to_string(largest));
+  }
+}
+
 /// Nobody holds still: 10 um of noise on edges of 1 cm.
 TEST(ContactOnset, NoiseMakesNoContactChatter) {
   std::mt19937 random(3);
@@ -97,7 +128,7 @@ TEST(ContactOnset, NoiseMakesNoContactChatter) {
       for (int place = 0; place < 8; ++place) {
         const double radius = edges * kEdge, depth = (place % 2 ? 0.05 : 0.2) * kEdge;
         const double x = 0.34 + 0.013 * place, y = 0.36 + 0.011 * place;
-        UnilateralContact contact(cube().greens, cube().mesh, ball(radius, friction), {});
+        UnilateralContact contact(cube().greens, cube().mesh, ball(radius, friction, 0), {});
         for (int tick = 0; tick < 40; ++tick) {
           const RigidPose pose = above(radius, depth, x, y);
           contact.step(&pose);
@@ -117,7 +148,7 @@ TEST(ContactOnset, NoWorkIsLeftOverAfterAClosedPath) {
   for (double edges : {0.7, 1.0, 2.0, 4.0})
     for (int sense : {-1, 1}) {
       const double radius = edges * kEdge;
-      UnilateralContact contact(cube().greens, cube().mesh, ball(radius), still(300));
+      UnilateralContact contact(cube().greens, cube().mesh, ball(radius, 0, 0), still(300));
       Eigen::Vector3d force = Eigen::Vector3d::Zero(), before = force;
       double work = 0, most = 0;
       constexpr int steps = 800;

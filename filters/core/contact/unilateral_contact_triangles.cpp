@@ -46,10 +46,10 @@ bool isBeside(const SurfaceMesh& mesh, int triangle, int other, double distance)
   return true;
 }
 
-double soon(const Obstacle& obstacle, double margin) {
-  const bool isOne = obstacle.tool < 0 && !obstacle.shape->isFaceted();
-  return isOne ? std::min(kSoon * margin, kSoonOfRadius * obstacle.shape->smallestRadius())
-               : kSoon * margin;
+double soon(const MovingObstacle& moving, double margin) {
+  if (moving.isMany) return kSoon * margin;
+  const double radius = moving.obstacle.shape->smallestRadius();
+  return std::min(kSoon * margin, kSoonOfRadius * radius);
 }
 
 }  // namespace
@@ -81,8 +81,8 @@ void UnilateralContact::findLargeTriangles() {
     const auto parts = std::count_if(obstacles_.begin(), obstacles_.end(), [&](const auto& other) {
       return tool >= 0 && other.obstacle.tool == tool;
     });
-    const bool isMany = parts > 1 || shape.isFaceted();
-    const double limit = (isMany ? kLargeEdgeOfMany : kLargeEdge) * shape.smallestRadius();
+    moving.isMany = parts > 1 || shape.isFaceted();
+    const double limit = (moving.isMany ? kLargeEdgeOfMany : kLargeEdge) * shape.smallestRadius();
     std::vector<int> slivers;
     for (int triangle = 0; triangle < mesh_->triangleCount(); ++triangle) {
       const double edge = mesh_->longestEdge(triangle);
@@ -199,7 +199,7 @@ void UnilateralContact::lookInside(int obstacle, int slot) noexcept {
     lookAt = travelled_ + wayLeft(point.near.distance, nearness);
   else if (point.isCorner(kOffCorner) || point.near.normal.dot(point.faceNormal) > kLargestCosine ||
            !isDeepestPart(obstacle, point))
-    lookAt = travelled_ + soon(moving.obstacle, margin_);
+    lookAt = travelled_ + soon(moving, margin_);
   else if (watchInside(obstacle, slot, point))
     lookAt = std::numeric_limits<double>::infinity();
 }
@@ -295,8 +295,8 @@ bool UnilateralContact::followInside(bool betweenSteps) noexcept {
         isChanged = moveInside(contact, corners, point) || isChanged;
       continue;
     }
-    moving.lookInside[slot] = travelled_ + std::max(soon(moving.obstacle, margin_),
-                                                    wayLeft(point.near.distance, nearness));
+    moving.lookInside[slot] =
+        travelled_ + std::max(soon(moving, margin_), wayLeft(point.near.distance, nearness));
     unwatch(contact);
     isChanged = true;
   }
