@@ -225,6 +225,24 @@ TEST_F(PointTouchOfASphere, ForgetsEverythingAtAReset) {
   EXPECT_FALSE(touch.step(&pose, &wrench).startedInside);
 }
 
+TEST_F(PointTouchOfASphere, APointThatIsNotThereTouchesNothing) {
+  for (const int count : {1, 2}) {
+    PointTouch touch(stiffness_, count, 0.5);
+    std::vector<ToolPose> poses(2);
+    poses[0].position = {0, 0, 0.9};
+    poses[0].isThere = false;
+    Wrench wrenches[2];
+    for (int tick = 0; tick < 30; ++tick) {
+      poses[1].position = {0.3, 0, 1.1 - 0.01 * tick};
+      EXPECT_FALSE(touch.step(poses.data(), wrenches).startedInside);
+      EXPECT_EQ(wrenches[0].force, Eigen::Vector3d::Zero());
+    }
+    if (count == 2) {
+      EXPECT_GT(wrenches[1].force.norm(), 0);
+    }
+  }
+}
+
 TEST_F(PointTouchOfASphere, ATickWithItsSnapshotAllocatesNothing) {
   ASSERT_TRUE(allocationsAreCounted());
   PointTouch touch(stiffness_, 2, 0.4);

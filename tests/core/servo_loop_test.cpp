@@ -408,6 +408,29 @@ TEST_F(AServoLoop, AGraphicsThreadThatStallsHoldsUpNothing) {
   loop.stop();
 }
 
+/// Where the loop takes a hand to be before it knows is inside the wall.
+TEST_F(AServoLoop, AToolTouchesNothingBeforeItsDeviceHasReportedAValidPose) {
+  auto held = tools();
+  held[0].mapping.origin.z() = -0.01;
+  int reads = 0;
+  hand_.misbehave = [&reads](DeviceState& state) {
+    state.pose.position = {0, 0, ++reads <= 50 ? 1e3 : 0.0};
+    return true;
+  };
+  ServoLoop loop(wall_, held);
+  for (int tick = 1; tick <= 50; ++tick) {
+    loop.runHeadless(1);
+    loop.update();
+    EXPECT_FALSE(loop.latest().contact.tools[0].touching);
+    EXPECT_EQ(loop.latest().contact.certificate.contactCount, 0);
+    EXPECT_EQ(loop.latest().contact.tools[0].wrench.force, Vector3d::Zero());
+    EXPECT_EQ(loop.latest().tools[0].safety.fault, Fault::InvalidPose);
+  }
+  loop.runHeadless(1);
+  loop.update();
+  EXPECT_TRUE(loop.latest().contact.tools[0].touching);
+}
+
 /// A step that waits computes nothing meanwhile, and the hand feels the force before it.
 TEST_F(AServoLoop, OneTickOfManyPeriodsEndsInAFaultAndNoForce) {
   std::atomic<bool> waits{false};

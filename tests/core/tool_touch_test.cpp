@@ -263,6 +263,27 @@ TEST(ToolTouch, TicksDoNotAllocate) {
   EXPECT_EQ(allocationCount(), before);
 }
 
+/// A plane, too, wherever it would be; and the tools that are there feel what they feel alone.
+TEST(ToolTouch, AToolThatIsNotThereTouchesNothing) {
+  const TouchedBody body = touchedSphere(2, true);
+  const auto plane = std::make_shared<RigidTouchTool>(std::make_shared<PlaneShape>());
+  ToolTouch all(body.greens, body.mesh, {ballTool(0.3), ballTool(0.3), plane}, 0.3);
+  ToolTouch alone(body.greens, body.mesh, {ballTool(0.3)}, 0.3);
+  for (int tick = 0; tick < 40; ++tick) {
+    ToolPose poses[3] = {at(0, 0, 1.35 - 0.005 * tick), at(0.5, 0, 0), at(0, 0, 0)};
+    poses[1].isThere = poses[2].isThere = false;
+    Wrench wrenches[3], wrench;
+    all.step(poses, wrenches);
+    alone.step(poses, &wrench);
+    EXPECT_EQ(wrenches[0].force, wrench.force);
+    for (int tool : {1, 2}) EXPECT_EQ(wrenches[tool].force, Eigen::Vector3d::Zero());
+  }
+  ContactSnapshot snapshot = all.makeSnapshot();
+  all.fill(snapshot);
+  EXPECT_TRUE(snapshot.tools[0].touching);
+  EXPECT_FALSE(snapshot.tools[1].touching || snapshot.tools[2].touching);
+}
+
 TEST(ToolTouch, RefusesASceneWithoutTools) {
   const TouchedBody body = touchedSphere(2, true);
   EXPECT_THROW(ToolTouch(body.greens, body.mesh, {}, 0), std::invalid_argument);

@@ -82,6 +82,17 @@ class Recordings(Touching):
         self.assertEqual((style.GetWarnings(), warnings), (told, [told]))
         self.assertIn(f"moments {120 * 250}\n", (self.folder / "long.txt").read_text())
 
+    def test_of_poses_out_of_reach_touch_nothing(self):
+        # The block has a corner at the origin, where a hand would be taken to be.
+        style = Touch(block_model())
+        style.SetToolToSphere(0.02)
+        style.SetDeviceToScript(
+            str(write_recording(self.folder / "far.txt", np.full((400, 3), 50.0))))
+        self.run_well(style, 0.4)
+        self.assertFalse(style.IsTouching())
+        self.assertEqual(np.abs(style.force()).max(), 0)
+        self.assertIn("out of reach", style.GetFault())
+
     def test_that_cannot_be_written_are_a_failure_that_leaves_nothing(self):
         style = Touch(block_model())
         style.SetRecordFileName(str(self.folder / "no" / "file.txt"))

@@ -89,6 +89,7 @@ ForceSafety::ForceSafety(const SafetySettings& settings, double period, double r
   const SafetySettings& s = settings;
   require(reportRate >= 0 && std::isfinite(reportRate), "reportRate", reportRate);
   require(isPositive(period), "period", period);
+  admitted_.isThere = false;
   require(s.largestForce == 0 || isPositive(s.largestForce), "largestForce", s.largestForce);
   require(s.largestTorque == 0 || isPositive(s.largestTorque), "largestTorque", s.largestTorque);
   require(isPositive(s.forceSlew), "forceSlew", s.forceSlew);

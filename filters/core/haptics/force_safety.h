@@ -101,7 +101,7 @@ class ForceSafety {
   /// @param present  whether the device is there; if not, `state` is not looked at.
   /// @param elapsed  s since the last tick: the period, or more if ticks were missed.
   /// @return the pose to go on with: the reported one, or else the last one that was valid, with a
-  ///         unit quaternion. The origin before there was any.
+  ///         unit quaternion. The origin, and not there, before there was any.
   const ToolPose& admit(bool present, const DeviceState& state, double elapsed) noexcept;
 
   /// Whether the last pose admitted is the first one, or the first after invalid ones or a jump:

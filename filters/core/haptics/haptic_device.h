@@ -21,6 +21,7 @@ struct ToolPose {
   std::uint32_t buttons = 0;  ///< a bit each
   int jointCount = 0;
   std::array<double, kMostJoints> joints{};  ///< rad, of exoskeletons and gloves
+  bool isThere = true;                       ///< false: nobody knows where, and it touches nothing
 };
 
 /// What a device reports at one moment.

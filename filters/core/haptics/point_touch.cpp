@@ -85,6 +85,7 @@ double PointTouch::sweep(bool isFirst) noexcept {
   double change = 0, largest = 0;
   guess_ = forces_;
   for (int i = 0; i < toolCount(); ++i) {
+    if (!poses_[i].isThere) continue;
     SlidingContact& tool = tools_[i];
     Tried& tried = tried_[i];
     const Eigen::Vector3d shift =
@@ -141,10 +142,10 @@ ContactCertificate PointTouch::step(const ToolPose* poses, Wrench* wrenches) noe
     tools_[i].setFriction(mu);
     tools_[i].setAdhesion((poses[i].buttons & kAdheres) != 0);
   }
-  if (tools_.size() == 1)
-    tools_.front().advance(poses_.front().position);
-  else
+  if (tools_.size() > 1)
     advanceTogether();
+  else if (poses_.front().isThere)
+    tools_.front().advance(poses_.front().position);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const SlidingContact& tool = tools_[i];
     wrenches[i] = {-tool.force(), Eigen::Vector3d::Zero()};

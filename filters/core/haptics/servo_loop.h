@@ -49,6 +49,7 @@ struct ServoSettings {
 /// One other thread, which made the loop, may call its methods; statistics() is open to all.
 class ServoLoop {
  public:
+  /// A tool is not there for the model until its device has reported a pose that is valid.
   /// @param model  not touched by others while it is in the loop.
   /// @param tools  one for each of the model's, in its order.
   /// @throws std::invalid_argument if model or a device is missing, their numbers differ, or a

@@ -3,6 +3,7 @@
 
 #include "haptics/tool_touch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,13 @@ std::vector<Obstacle> obstaclesOf(const std::vector<std::shared_ptr<const TouchT
                          partner.greens, partner.mesh});
   }
   return obstacles;
+}
+
+/// Far from all bodies, whatever the shape: a plane's material is below it.
+RigidPose nowhere() {
+  RigidPose pose;
+  pose.position.z() = -1e6;
+  return pose;
 }
 
 }  // namespace
@@ -70,7 +78,9 @@ ContactCertificate ToolTouch::step(const ToolPose* poses, Wrench* wrenches) noex
   takeOver();
   for (int t = 0; t < toolCount(); ++t) {
     tools_[t].pose = poses[t];
-    tools_[t].tool->place(poses[t], poses_.data() + tools_[t].firstPart);
+    RigidPose* const parts = poses_.data() + tools_[t].firstPart;
+    tools_[t].tool->place(poses[t], parts);
+    if (!poses[t].isThere) std::fill_n(parts, tools_[t].tool->partCount(), nowhere());
     const bool holds = holds_ && (poses[t].buttons & kHolds) != 0;
     for (int part = 0; part < tools_[t].tool->partCount(); ++part)
       contact_.setHeld(tools_[t].firstPart + part, holds);

@@ -60,7 +60,8 @@ class TouchModel {
   virtual int toolCount() const = 0;
 
   /// Advances the contact to new poses. Neither allocates, locks nor throws.
-  /// @param poses    toolCount() of them, finite, in the scene's frame.
+  /// @param poses    toolCount() of them, finite, in the scene's frame. A tool that is not there
+  ///                 touches nothing; when it comes, a reset comes before.
   /// @param wrenches toolCount(), set to what the surface does to each tool, torque about its
   ///                 position. N, N m.
   virtual ContactCertificate step(const ToolPose* poses, Wrench* wrenches) noexcept = 0;

@@ -29,7 +29,8 @@ ContactCertificate VirtualWall::step(const ToolPose* poses, Wrench* wrenches) no
   certificate_ = ContactCertificate();
   for (int t = 0; t < toolCount(); ++t) {
     ToolContact& contact = contacts_[t];
-    const double depth = std::max(0.0, (point_ - poses[t].position).dot(normal_));
+    const double depth =
+        poses[t].isThere ? std::max(0.0, (point_ - poses[t].position).dot(normal_)) : 0;
     contact.touching = depth > 0;
     contact.pose = poses[t];
     contact.hapticPoint = poses[t].position;
