@@ -37,6 +37,8 @@ const std::string kShapes = R"({
                           "gradient_limit": 0.1}]},
   "servo": {"rate": 500, "budget": 0.5, "snapshot_ticks": 2, "passivity_damping": 1.5,
             "real_time": false, "processor": 1},
+  "safety": {"largest_force": 8, "largest_torque": 0.2, "force_slew": 2000, "torque_slew": 50,
+             "ramp_seconds": 0.25},
   "solver": {"capacity": 64, "margin": 0.001, "linearisations": 2, "tolerance": 1e-6,
              "largest_iterations": 20, "largest_updates": 8,
              "largest_work": 1e6}
@@ -99,6 +101,11 @@ TEST(Scenes, SayWhatIsTouchedWithWhatAndWhatOfItIsSimulated) {
   EXPECT_EQ(scene.servo.passivityDamping, 1.5);
   EXPECT_FALSE(scene.servo.realTime);
   EXPECT_EQ(scene.servo.processor, 1);
+  EXPECT_EQ(scene.safety.largestForce, 8);
+  EXPECT_EQ(scene.safety.largestTorque, 0.2);
+  EXPECT_EQ(scene.safety.forceSlew, 2000);
+  EXPECT_EQ(scene.safety.torqueSlew, 50);
+  EXPECT_EQ(scene.safety.rampSeconds, 0.25);
   EXPECT_EQ(scene.solver.capacity, 64);
   EXPECT_EQ(scene.solver.margin, 0.001);
   EXPECT_EQ(scene.solver.solver.largestUpdates, 8);
@@ -252,6 +259,10 @@ TEST(Scenes, EveryMistakeNamesItsKey) {
       {"\"tolerance\": 1e-6", "\"tolerance\": 0", "\"solver.tolerance\" must be"},
       {"\"largest_iterations\": 20", "\"largest_iterations\": 0",
        "\"solver.largest_iterations\" must"},
+      {"\"largest_force\": 8", "\"largest_force\": -8", "\"safety.largest_force\" must"},
+      {"\"force_slew\": 2000", "\"force_slew\": 0", "\"safety.force_slew\" must"},
+      {"\"ramp_seconds\": 0.25", "\"ramp_seconds\": 0", "\"safety.ramp_seconds\" must"},
+      {"\"largest_torque\": 0.2", "\"fade\": 0.2", "\"safety.fade\""},
       {"\"largest_updates\": 8", "\"largest_updates\": -8", "\"solver.largest_updates\" must"},
       {"\"largest_updates\": 8", "\"largest_updates\": 0",
        "\"solver.largest_updates\" must be at least 1: without a limit the servo loop would wait"},

@@ -130,6 +130,9 @@ class Settings(Touching):
                 self.refuse(style, sentence, method, value)
         self.assertEqual(before, [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
                                   style.GetRigidStiffness(), style.GetServoRate()])
+                (style.SetLargestForce, "safety setting largestForce", (-1, nan, np.inf)),
+                (style.SetForceSlew, "safety setting forceSlew", (0, -1, nan)),
+                (style.SetForceRamp, "safety setting rampSeconds", (0, -1, nan)),
         self.assertTrue(style.RunHeadless(0.01))
         self.assertEqual(style.GetFailureMessage(), "")
 
@@ -139,12 +142,33 @@ class Settings(Touching):
                           style.GetServoRate(), style.GetPressDepth(), style.GetFrameRate(),
                           style.GetDeformation(), style.GetNumberOfTools()),
                          (0.3, 1, 0, 1000, 0.02, 60, MODES["all"], 1))
+    def test_of_safety_bound_what_a_device_is_given(self):
+        # Stations of a press: whole force from 1.1 s on, of more than 8 N on a ball this deep.
+        deep = tuple((seconds, (0, 0, -8 if z < 0 else z)) for seconds, (_, _, z) in PRESS)
+        file = write_recording(self.folder / "deep.txt", path(*deep), limits="8 0.1 0")
+        largest = {}
+        for limit in (None, 1.0, 8.0):
+            style = Touch(block_model())
+            style.SetToolToSphere(0.02)
+            if limit is not None:
+                self.assertTrue(style.SetLargestForce(limit))
+                self.assertEqual(style.GetLargestForce(), limit)
+            style.SetDeviceToScript(str(file))
+            self.run_well(style, 1.2)
+            self.assertGreater(np.linalg.norm(style.force()), 3.2)
+            largest[limit] = np.linalg.norm(style.rendered())
+        self.assertAlmostEqual(largest[None], 3)
+        self.assertAlmostEqual(largest[1.0], 1)
+        self.assertGreater(largest[8.0], 3.2)
+
         corners = points_of(block_model())[np.array(
             [[block_model().GetCell(c).GetPointId(k) for k in range(3)]
              for c in range(block_model().GetNumberOfCells())])]
         edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)  # each of them twice
         self.assertAlmostEqual(style.GetMaskRadius() / (2 * edges.mean()), 1, delta=1e-12)
 
+        self.assertEqual((style.GetLargestForce(), style.GetForceSlew(), style.GetForceRamp()),
+                         (3, 1000, 0.5))
     def test_that_were_made_last_hold_however_many_came_between_two_ticks(self):
         for radius in (0, 0.03):
             style = self.scripted(path((0, (0, 0, 5 + 1e3 * radius)), (REST, (0, 0, 5 + 1e3 * radius)),

@@ -79,4 +79,15 @@ Value readNamed(const Json& value, const std::string& path,
   refuseKey(path, "must be one of " + names + ", not " + shown(value));
 }
 
+/// A key that may be left out: what reads it is given its value and path.
+template <class Read>
+void readIf(JsonSection& section, const char* key, const Read& read) {
+  if (const Json* found = section.find(key)) read(*found, section.path(key));
+}
+template <class Value, class Read, class... Limits>
+void readIf(JsonSection& section, const char* key, Value& value, const Read& read,
+            Limits... limits) {
+  if (const Json* found = section.find(key)) value = read(*found, section.path(key), limits...);
+}
+
 }  // namespace palpate

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "haptics/json_reader.h"
+#include "haptics/scene_settings.h"
 
 namespace palpate {
 namespace {
@@ -17,17 +18,6 @@ constexpr double kFarthest = 1e6;  ///< m, and as large as other numbers get
 constexpr double kLargestFriction = 100;
 constexpr std::size_t kMostEntries = 1000;
 constexpr double kHandLength = 0.19;
-
-/// A key that may be left out.
-template <class Read>
-void readIf(JsonSection& section, const char* key, const Read& read) {
-  if (const Json* found = section.find(key)) read(*found, section.path(key));
-}
-template <class Value, class Read, class... Limits>
-void readIf(JsonSection& section, const char* key, Value& value, const Read& read,
-            Limits... limits) {
-  if (const Json* found = section.find(key)) value = read(*found, section.path(key), limits...);
-}
 
 Eigen::Vector3d readVector(const Json& value, const std::string& path) {
   return readNumberList(value, path, 3, kFarthest);
@@ -313,43 +303,6 @@ std::vector<SceneModel> readModels(const Json& value, const SceneEffects& effect
   return models;
 }
 
-ServoSettings readServo(const Json& value) {
-  JsonSection section(value, "servo");
-  ServoSettings servo;
-  readIf(section, "rate", [&](const Json& found, const std::string& at) {
-    servo.rate = readPositive(found, at, 10000);
-    if (servo.rate < 250) refuseKey(at, "must be a number from 250 to 10000, not " + shown(found));
-  });
-  readIf(section, "budget", servo.budget, readPositive, 1);
-  readIf(section, "snapshot_ticks", servo.snapshotTicks, readInteger, 1, 10000);
-  readIf(section, "passivity_damping", servo.passivityDamping, readNotNegative, kFarthest);
-  readIf(section, "real_time", servo.realTime, readFlag);
-  readIf(section, "processor", servo.processor, readInteger, 0, 4095);
-  section.requireNothingElse();
-  return servo;
-}
-
-UnilateralContactSettings readSolver(const Json& value) {
-  JsonSection section(value, "solver");
-  UnilateralContactSettings solver;
-  readIf(section, "capacity", solver.capacity, readInteger, 1,
-         UnilateralContactSettings::kMostContacts);
-  readIf(section, "margin", solver.margin, readNotNegative, kFarthest);
-  readIf(section, "linearisations", solver.linearisations, readInteger, 1, 20);
-  readIf(section, "tolerance", solver.solver.tolerance, readPositive, 1);
-  readIf(section, "largest_iterations", solver.solver.largestIterations, readInteger, 1, 1000000);
-  readIf(section, "largest_updates", [&](const Json& found, const std::string& at) {
-    solver.solver.largestUpdates = readInteger(found, at, 0, 1000000);
-    if (solver.solver.largestUpdates == 0)
-      refuseKey(at,
-                "must be at least 1: without a limit the servo loop would wait for LAPACK, which "
-                "allocates and locks; leave it out for the default, 12");
-  });
-  readIf(section, "largest_work", solver.solver.largestWork, readPositive, 1e15);
-  section.requireNothingElse();
-  return solver;
-}
-
 Scene readWholeScene(const std::string& text) {
   const Json value = parseJson(text, "the text");
   JsonSection section(value, "", "it");
@@ -362,6 +315,8 @@ Scene readWholeScene(const std::string& text) {
   scene.models = readModels(section.need("models"), scene.effects);
   readIf(section, "servo",
          [&](const Json& found, const std::string&) { scene.servo = readServo(found); });
+  readIf(section, "safety",
+         [&](const Json& found, const std::string&) { scene.safety = readSafety(found); });
   readIf(section, "solver", [&](const Json& found, const std::string& at) {
     if (scene.isOfPoints()) refuseKey(at, "is of tools with a shape, not of points");
     scene.solver = readSolver(found);

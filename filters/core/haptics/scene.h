@@ -125,16 +125,21 @@ struct SceneEffects {
 ///   (false)}.
 /// - "servo": {"rate" in Hz (1000), "budget" (0.7), "snapshot_ticks" (1), "passivity_damping" in N
 ///   s/m (0), "real_time" (true), "processor" (any)}: ServoSettings.
+/// - "safety": {"largest_force" in N (3), "largest_torque" in N m (0.1), "force_slew" (1000) in
+///   N/s, "torque_slew" in N m/s (30), "ramp_seconds" from nothing to the whole force (0.5)}:
+///   SafetySettings, of all devices but mice, which render nothing. No device is asked for more
+///   than it says it renders.
 /// - "solver", of tools with a shape: {"capacity" (as many contacts as the model has vertices, from
 ///   128 to 500), "margin" in m (half an edge), "linearisations" (1), "tolerance" (1e-9),
-///   "largest_iterations" (100), "largest_updates", at least 1 (12), "largest_work" in flops (2e7)}:
-///   UnilateralContactSettings.
+///   "largest_iterations" (100), "largest_updates", at least 1 (12), "largest_work" in flops
+///   (2e7)}: UnilateralContactSettings.
 struct Scene {
   std::vector<SceneModel> models;
   std::vector<SceneTool> tools;
   std::vector<SceneDevice> devices;
   SceneEffects effects;
   ServoSettings servo;
+  SafetySettings safety;             ///< of every device that renders forces
   UnilateralContactSettings solver;  ///< but for its rigid stiffness: the stiffness limit
 
   /// Whether all tools are points; otherwise none is.

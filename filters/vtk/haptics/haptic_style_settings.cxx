@@ -100,6 +100,42 @@ double vtkInteractorStyleHaptic::GetServoRate()
   return this->Internals->Session.Scene().servo.rate;
 }
 
+bool vtkInteractorStyleHaptic::SetLargestForce(double force)
+{
+  palpate::SafetySettings safety = this->Internals->Session.Scene().safety;
+  safety.largestForce = force;
+  return this->Try([&] { this->Internals->Session.SetSafety(safety); });
+}
+
+double vtkInteractorStyleHaptic::GetLargestForce()
+{
+  return this->Internals->Session.Scene().safety.largestForce;
+}
+
+bool vtkInteractorStyleHaptic::SetForceSlew(double slew)
+{
+  palpate::SafetySettings safety = this->Internals->Session.Scene().safety;
+  safety.forceSlew = slew;
+  return this->Try([&] { this->Internals->Session.SetSafety(safety); });
+}
+
+double vtkInteractorStyleHaptic::GetForceSlew()
+{
+  return this->Internals->Session.Scene().safety.forceSlew;
+}
+
+bool vtkInteractorStyleHaptic::SetForceRamp(double seconds)
+{
+  palpate::SafetySettings safety = this->Internals->Session.Scene().safety;
+  safety.rampSeconds = seconds;
+  return this->Try([&] { this->Internals->Session.SetSafety(safety); });
+}
+
+double vtkInteractorStyleHaptic::GetForceRamp()
+{
+  return this->Internals->Session.Scene().safety.rampSeconds;
+}
+
 bool vtkInteractorStyleHaptic::SetRecordFileName(const char* fileName)
 {
   return this->Try([&] { this->Internals->Session.SetRecordFile(fileName ? fileName : ""); });

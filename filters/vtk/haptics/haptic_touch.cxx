@@ -150,6 +150,13 @@ void HapticTouch::SetDeformation(DeformationRows rows)
 }
 
 void HapticTouch::SetRecordFile(const std::string& fileName)
+void HapticTouch::SetSafety(const SafetySettings& safety)
+{
+  ForceSafety(safety, 1 / this->Described().servo.rate); // refuses what makes no sense
+  this->Change();
+  this->Described().safety = safety;
+}
+
 {
   this->Change(); // a device that is open already is not recorded
   this->RecordFile = fileName;

@@ -40,6 +40,8 @@ public:
   void SetRate(double rate);
   void SetDeformation(DeformationRows rows);
   void SetRecordFile(const std::string& fileName);
+  /// @throws std::invalid_argument for what ForceSafety would refuse.
+  void SetSafety(const SafetySettings& safety);
 
   ///@{ At once.
   void SetFriction(double mu);

@@ -80,6 +80,7 @@ ServoTool HapticTouch::OpenHand(const SceneTool& tool, const SurfaceMesh* mesh)
   ServoTool hand;
   hand.device = this->Open(tool, mesh);
   hand.mapping = described.mapping;
+  hand.safety = this->Described().safety;
   if (described.type == DeviceType::Mouse)
   {
     hand.safety.largestForce = hand.safety.largestTorque = hand.safety.forceSlew =

@@ -171,6 +171,20 @@ public:
 
   ///@{
   /**
+   * What may be done to a hand: the largest force, N (default 3), its largest change, N/s (1000), and the
+   * time from nothing to the whole force after a start or a fault, s (0.5). No device is asked for more than it
+   * says it renders; the mouse renders nothing and has no limits. Stops.
+   */
+  bool SetLargestForce(double force);
+  double GetLargestForce();
+  bool SetForceSlew(double slew);
+  double GetForceSlew();
+  bool SetForceRamp(double seconds);
+  double GetForceRamp();
+  ///@}
+
+  ///@{
+  /**
    * How deep the mouse presses at first, in diagonals of the body, 0 to 1 (default 0.02).
    */
   bool SetPressDepth(double depth);
