@@ -341,6 +341,16 @@ TEST_F(AHandThatFeels, ADeviceOfLessThanFiftyReportsASecondGetsNoForceAndThatIsT
     }
 }
 
+TEST_F(AHandThatFeels, TheEndOfARecordingIsToldAsThat) {
+  tickUntilItRenders();
+  state_.isOver = true;
+  for (int i = 0; i < 10; ++i) silentTick();
+  EXPECT_EQ(silentTick().force, Vector3d::Zero());
+  EXPECT_EQ(safety_.report().fault, Fault::Ended);
+  EXPECT_EQ(faults(Fault::Silent), 0);
+  EXPECT_STREQ(describe(Fault::Ended), "the end of the recording");
+}
+
 TEST_F(AHandThatFeels, ATickThatComesLateIsOfTheDeviceNoMoreThanAReportThatIsMissing) {
   tickUntilItRenders();
   const double before = tick().force.norm();

@@ -41,6 +41,17 @@ TEST(ScriptedDevices, GiveOneMomentAReadAndFallSilentAtTheirEnd) {
   EXPECT_EQ(device.info().name, "path");
 }
 
+TEST(ScriptedDevices, SayThatARecordingIsOverOnceItsLastMomentIsRepeated) {
+  DeviceRecording recording;
+  recording.moments.resize(2);
+  ScriptedDevice device(recording);
+  DeviceState state;
+  for (const bool isOver : {false, false, true, true}) {
+    ASSERT_TRUE(device.read(state));
+    EXPECT_EQ(state.isOver, isOver);
+  }
+}
+
 TEST(ScriptedDevices, WhereTheyAreAwayNothingArrives) {
   DeviceRecording recording = pathAlongX(3);
   recording.moments[1].isThere = false;

@@ -95,7 +95,13 @@ class Recordings(Touching):
 
     def test_that_cannot_be_written_are_a_failure_that_leaves_nothing(self):
         style = Touch(block_model())
-        style.SetRecordFileName(str(self.folder / "no" / "file.txt"))
+        for name, why in (("no/file.txt", "there is no folder"), ("", "it is a folder")):
+            self.refuse(style, why, style.SetRecordFileName, str(self.folder / name))
+        style = Touch(block_model())
+        folder = self.folder / "gone"
+        folder.mkdir()
+        self.assertTrue(style.SetRecordFileName(str(folder / "file.txt")))
+        folder.rmdir()
         self.run_well(style, 0.1)
         self.refuse(style, "file.txt cannot be written", style.Stop)
         self.assertEqual(list(self.folder.iterdir()), [])
@@ -124,24 +130,18 @@ class Settings(Touching):
                 (style.SetStiffnessScale, "stiffness scale must be positive", (0, -1, 1e300, nan)),
                 (style.SetRigidStiffness, "rigid stiffness must be from 0 to 1e15 N/m", (-1, 1e300, nan)),
                 (style.SetServoRate, "between 250 and 10000 Hz", (0, 249, 10001, nan)),
+                (style.SetLargestForce, "safety setting largestForce", (-1, nan, np.inf)),
+                (style.SetForceSlew, "safety setting forceSlew", (0, -1, nan)),
+                (style.SetForceRamp, "safety setting rampSeconds", (0, -1, nan)),
                 (style.SetToolToSphere, "radius of a ball must be positive", (0, -1, nan)),
                 (style.RunHeadless, "time to run must be from 0 to 86400 s", (-1, 1e300, nan, np.inf))):
             for value in values:
                 self.refuse(style, sentence, method, value)
         self.assertEqual(before, [style.GetFriction(), style.GetMaskRadius(), style.GetStiffnessScale(),
                                   style.GetRigidStiffness(), style.GetServoRate()])
-                (style.SetLargestForce, "safety setting largestForce", (-1, nan, np.inf)),
-                (style.SetForceSlew, "safety setting forceSlew", (0, -1, nan)),
-                (style.SetForceRamp, "safety setting rampSeconds", (0, -1, nan)),
         self.assertTrue(style.RunHeadless(0.01))
         self.assertEqual(style.GetFailureMessage(), "")
 
-    def test_have_the_values_of_the_header(self):
-        style = Touch(block_model())
-        self.assertEqual((style.GetFriction(), style.GetStiffnessScale(), style.GetRigidStiffness(),
-                          style.GetServoRate(), style.GetPressDepth(), style.GetFrameRate(),
-                          style.GetDeformation(), style.GetNumberOfTools()),
-                         (0.3, 1, 0, 1000, 0.02, 60, MODES["all"], 1))
     def test_of_safety_bound_what_a_device_is_given(self):
         # Stations of a press: whole force from 1.1 s on, of more than 8 N on a ball this deep.
         deep = tuple((seconds, (0, 0, -8 if z < 0 else z)) for seconds, (_, _, z) in PRESS)
@@ -161,14 +161,20 @@ class Settings(Touching):
         self.assertAlmostEqual(largest[1.0], 1)
         self.assertGreater(largest[8.0], 3.2)
 
+    def test_have_the_values_of_the_header(self):
+        style = Touch(block_model())
+        self.assertEqual((style.GetFriction(), style.GetStiffnessScale(), style.GetRigidStiffness(),
+                          style.GetServoRate(), style.GetPressDepth(), style.GetFrameRate(),
+                          style.GetDeformation(), style.GetNumberOfTools()),
+                         (0.3, 1, 0, 1000, 0.02, 60, MODES["all"], 1))
+        self.assertEqual((style.GetLargestForce(), style.GetForceSlew(), style.GetForceRamp()),
+                         (3, 1000, 0.5))
         corners = points_of(block_model())[np.array(
             [[block_model().GetCell(c).GetPointId(k) for k in range(3)]
              for c in range(block_model().GetNumberOfCells())])]
         edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)  # each of them twice
         self.assertAlmostEqual(style.GetMaskRadius() / (2 * edges.mean()), 1, delta=1e-12)
 
-        self.assertEqual((style.GetLargestForce(), style.GetForceSlew(), style.GetForceRamp()),
-                         (3, 1000, 0.5))
     def test_that_were_made_last_hold_however_many_came_between_two_ticks(self):
         for radius in (0, 0.03):
             style = self.scripted(path((0, (0, 0, 5 + 1e3 * radius)), (REST, (0, 0, 5 + 1e3 * radius)),

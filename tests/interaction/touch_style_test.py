@@ -219,7 +219,7 @@ class Faults(Touching):
     def test_are_the_end_of_a_recording_too(self):
         style = self.scripted(path(*PRESS))
         self.run_well(style, 2)
-        self.assertEqual(style.GetFault(), "no report from the device")
+        self.assertEqual(style.GetFault(), "the end of the recording")
         self.assertEqual(len(style.trace()), len(path(*PRESS)))
 
     def test_come_with_the_number_of_the_tool(self):

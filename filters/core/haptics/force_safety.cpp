@@ -76,6 +76,8 @@ const char* describe(Fault fault) noexcept {
       return "touched where the model's Green's functions were not computed";
     case Fault::StartedInside:
       return "a tool that was inside the body when its touch began";
+    case Fault::Ended:
+      return "the end of the recording";
   }
   return "";
 }
@@ -87,9 +89,9 @@ ForceSafety::ForceSafety(const SafetySettings& settings, double period, double r
       sound_(kNoWrench),
       rendered_(kNoWrench) {
   const SafetySettings& s = settings;
+  admitted_.isThere = false;
   require(reportRate >= 0 && std::isfinite(reportRate), "reportRate", reportRate);
   require(isPositive(period), "period", period);
-  admitted_.isThere = false;
   require(s.largestForce == 0 || isPositive(s.largestForce), "largestForce", s.largestForce);
   require(s.largestTorque == 0 || isPositive(s.largestTorque), "largestTorque", s.largestTorque);
   require(isPositive(s.forceSlew), "forceSlew", s.forceSlew);
@@ -146,7 +148,8 @@ const ToolPose& ForceSafety::admit(bool present, const DeviceState& state,
   // missing.
   silence_ += std::min(elapsed, interval_.seconds());
   if (everReported_ && state.sequence == sequence_) {
-    poseFault_ = silentShare() < kRounding || interval_.isTooLong() ? Fault::Silent : Fault::None;
+    const bool isSilent = silentShare() < kRounding || interval_.isTooLong();
+    poseFault_ = !isSilent ? Fault::None : state.isOver ? Fault::Ended : Fault::Silent;
     return admitted_;
   }
   if (everReported_)

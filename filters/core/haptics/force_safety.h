@@ -51,9 +51,10 @@ enum class Fault : std::uint8_t {
   RoughSolves,    ///< cut before their tolerance was met, with a residual to be felt
   HeldBack,       ///< points that should slide and have gone nowhere
   Uncomputed,     ///< the model has no Green's functions where it is touched
-  StartedInside,  ///< a point was inside the body when its touch began; the force ramps from there
+  StartedInside,  ///< a tool was inside the body when its touch began; the force ramps from there
+  Ended,          ///< no new report because a recording has come to its end
 };
-inline constexpr int kFaultCount = 12;
+inline constexpr int kFaultCount = 13;
 
 /// In words, e.g. "no report from the device".
 const char* describe(Fault fault) noexcept;

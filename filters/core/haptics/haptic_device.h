@@ -28,7 +28,8 @@ struct ToolPose {
 struct DeviceState {
   /// Counts the reports taken so far: the same number again means that nothing new has come.
   std::uint64_t sequence = 0;
-  ToolPose pose;  ///< in the device's own frame
+  ToolPose pose;        ///< in the device's own frame
+  bool isOver = false;  ///< whether this was the last: a recording has come to its end
 };
 
 /// What a device can do. A limit of zero means that it renders none.

@@ -15,9 +15,13 @@ ScriptedDevice::ScriptedDevice(DeviceRecording recording) : recording_(std::move
 }
 
 bool ScriptedDevice::read(DeviceState& state) noexcept {
-  if (!isFinished()) ++next_;
+  const bool isOver = isFinished();
+  if (!isOver) ++next_;
   const DeviceMoment& moment = recording_.moments[next_ - 1];
-  if (moment.isThere) state = moment.state;
+  if (moment.isThere) {
+    state = moment.state;
+    state.isOver = isOver;
+  }
   return moment.isThere;
 }
 

@@ -10,7 +10,7 @@
 namespace palpate {
 
 /// Replays a recording, a moment per read, and remembers the wrenches that it was to render. After
-/// its last moment it stays as that one was: silent, or away.
+/// its last moment it stays as that one was, silent, which it says is the end, or away.
 class ScriptedDevice final : public HapticDevice {
  public:
   /// @throws std::invalid_argument if there is no moment to replay.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 
 namespace palpate
@@ -149,7 +150,6 @@ void HapticTouch::SetDeformation(DeformationRows rows)
   this->Described().effects.deformation = rows;
 }
 
-void HapticTouch::SetRecordFile(const std::string& fileName)
 void HapticTouch::SetSafety(const SafetySettings& safety)
 {
   ForceSafety(safety, 1 / this->Described().servo.rate); // refuses what makes no sense
@@ -157,7 +157,18 @@ void HapticTouch::SetSafety(const SafetySettings& safety)
   this->Described().safety = safety;
 }
 
+void HapticTouch::SetRecordFile(const std::string& fileName)
 {
+  const std::filesystem::path file(fileName), folder = file.parent_path();
+  if (std::filesystem::is_directory(file))
+  {
+    throw std::invalid_argument("cannot record to '" + fileName + "': it is a folder");
+  }
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+  {
+    throw std::invalid_argument(
+      "cannot record to '" + fileName + "': there is no folder '" + folder.string() + "'");
+  }
   this->Change(); // a device that is open already is not recorded
   this->RecordFile = fileName;
 }

@@ -139,7 +139,7 @@ public:
   ///@{
   /**
    * Most contacts of tools with a shape at a time, up to 2000; 0 (default) for as many as the model has
-   * vertices, from 128 to 500. Beyond them the force is too small, and GetStatus says so.
+   * vertices, from 128 to 500. Beyond them the force is too small, and GetStatus says so. Stops.
    */
   bool SetContactCapacity(int capacity);
   int GetContactCapacity();
@@ -203,6 +203,7 @@ public:
   /**
    * A file that Stop writes the first device's motion to with its rate, whole or not at all; none by
    * default. It holds 120 s: what comes later is left out, and Stop warns of it. For SetDeviceToScript. Stops.
+   * False without a folder to write it to.
    */
   bool SetRecordFileName(const char* fileName);
   ///@}
