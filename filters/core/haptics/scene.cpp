@@ -313,13 +313,18 @@ Scene readWholeScene(const std::string& text) {
   const Json* effects = section.find("effects");
   scene.effects = readEffects(effects ? *effects : Json::object(), scene.isOfPoints());
   scene.models = readModels(section.need("models"), scene.effects);
-  readIf(section, "servo",
-         [&](const Json& found, const std::string&) { scene.servo = readServo(found); });
-  readIf(section, "safety",
-         [&](const Json& found, const std::string&) { scene.safety = readSafety(found); });
+  readIf(section, "servo", [&](const Json& found, const std::string&) {
+    JsonSection servo(found, "servo");
+    scene.servo = readServo(servo);
+  });
+  readIf(section, "safety", [&](const Json& found, const std::string&) {
+    JsonSection safety(found, "safety");
+    scene.safety = readSafety(safety);
+  });
   readIf(section, "solver", [&](const Json& found, const std::string& at) {
     if (scene.isOfPoints()) refuseKey(at, "is of tools with a shape, not of points");
-    scene.solver = readSolver(found);
+    JsonSection solver(found, "solver");
+    scene.solver = readSolver(solver);
   });
   section.requireNothingElse();
   return scene;

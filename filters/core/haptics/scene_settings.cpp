@@ -3,6 +3,8 @@
 
 #include "haptics/scene_settings.h"
 
+#include "haptics/json_reader.h"
+
 namespace palpate {
 namespace {
 
@@ -10,8 +12,7 @@ constexpr double kFarthest = 1e6;  ///< m, and as large as other numbers get
 
 }  // namespace
 
-ServoSettings readServo(const Json& value) {
-  JsonSection section(value, "servo");
+ServoSettings readServo(JsonSection& section) {
   ServoSettings servo;
   readIf(section, "rate", [&](const Json& found, const std::string& at) {
     servo.rate = readPositive(found, at, 10000);
@@ -26,8 +27,7 @@ ServoSettings readServo(const Json& value) {
   return servo;
 }
 
-SafetySettings readSafety(const Json& value) {
-  JsonSection section(value, "safety");
+SafetySettings readSafety(JsonSection& section) {
   SafetySettings safety;
   readIf(section, "largest_force", safety.largestForce, readNotNegative, kFarthest);
   readIf(section, "largest_torque", safety.largestTorque, readNotNegative, kFarthest);
@@ -38,8 +38,7 @@ SafetySettings readSafety(const Json& value) {
   return safety;
 }
 
-UnilateralContactSettings readSolver(const Json& value) {
-  JsonSection section(value, "solver");
+UnilateralContactSettings readSolver(JsonSection& section) {
   UnilateralContactSettings solver;
   readIf(section, "capacity", solver.capacity, readInteger, 1,
          UnilateralContactSettings::kMostContacts);
