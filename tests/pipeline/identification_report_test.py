@@ -163,12 +163,15 @@ class Identification(unittest.TestCase):
         self.assertGreater(red.sum(), 200)
         self.assertGreater(green.sum(), 500)
 
-    def test_of_a_number_at_its_bound_gives_no_deviation_and_says_so(self):
+    def test_of_a_number_at_its_bound_gives_an_interval_up_to_it_and_says_so(self):
         surface, _, _ = files()
         model, page, _ = made("bound", "identify", surface, ("--measurements", place("fine.csv"),
                                                              "--poisson-range", 0.1, 0.2, "--folds", 0))
-        self.assertEqual(palpate.array(model, "IdentifiedParameters")[1, 1], 0)
-        self.assertEqual(table_with(page, "standard deviation")[2][2:], ["–"] * 3)
+        value, deviation, low, high = palpate.array(model, "IdentifiedParameters")[1]
+        self.assertEqual((value, high), (0.2, 0.2))
+        self.assertLess(low, high)
+        self.assertEqual(table_with(page, "standard deviation")[2][2:],
+                         [f"{deviation:.2g}", f"{low:.4g}", f"{high:.4g}"])
         self.assertIn("Poisson's ratio is at the bound 0.2", text_of(page))
 
     def test_of_a_known_ratio_says_what_was_looked_for_alone(self):

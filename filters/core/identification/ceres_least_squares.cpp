@@ -97,19 +97,13 @@ ceres::LossFunction* lossOf(const LeastSquaresProblem& problem) {
 std::vector<int> atBounds(const double* place, const LeastSquaresProblem& given) {
   std::vector<int> found;
   for (int i = 0; i < given.start.size(); ++i) {
-    const double width = std::min(1.0, given.upper[i] - given.lower[i]);
-    if (place[i] <= given.lower[i] + 1e-9 * width || place[i] >= given.upper[i] - 1e-9 * width)
-      found.push_back(i);
+    if (isAtBound(place[i], given.lower[i], given.upper[i])) found.push_back(i);
   }
   return found;
 }
 
-/// Parameters at a bound do not vary: their rows and columns are zero.
-void setCovariance(ceres::Problem& problem, const double* place, bool areAllHeld,
-                   LeastSquaresSolution& solution) {
-  const int count = static_cast<int>(solution.parameters.size());
-  solution.covariance.setZero(count, count);
-  if (areAllHeld) return;
+/// Of parameters that are free to vary; empty where they are not determined.
+Eigen::MatrixXd covarianceOf(ceres::Problem& problem, const double* place, int count) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
   options.min_reciprocal_condition_number = 1e-30;  // of what the caller has looked at
@@ -118,9 +112,23 @@ void setCovariance(ceres::Problem& problem, const double* place, bool areAllHeld
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(count, count);
   if (covariance.Compute(blocks, &problem) &&
       covariance.GetCovarianceBlock(place, place, values.data()) && values.allFinite())
-    solution.covariance = values;
-  else
-    solution.covariance.resize(0, 0);
+    return values;
+  return {};
+}
+
+void hold(ceres::Problem& problem, double* place, int count, const std::vector<int>& held) {
+  problem.SetManifold(place, held.empty() ? nullptr : new ceres::SubsetManifold(count, held));
+}
+
+/// Without bounds, and with what is at a bound held.
+void setCovariances(ceres::Problem& problem, double* place, const std::vector<int>& held,
+                    LeastSquaresSolution& solution) {
+  const int count = static_cast<int>(solution.parameters.size());
+  solution.heldCovariance.setZero(count, count);
+  if (int(held.size()) < count) solution.heldCovariance = covarianceOf(problem, place, count);
+  if (!held.empty()) hold(problem, place, count, {});
+  solution.covariance =
+      held.empty() ? solution.heldCovariance : covarianceOf(problem, place, count);
 }
 
 /// Nothing where it converged: Ceres calls some ends so whose cost is not finite.
@@ -186,10 +194,9 @@ void solve(const LeastSquaresProblem& given, LeastSquaresSolution& solution, std
       break;
     }
     held = now;
-    problem.SetManifold(place, new ceres::SubsetManifold(int(given.start.size()), held));
+    hold(problem, place, int(given.start.size()), held);
   }
-  setCovariance(problem, place, held.size() == std::size_t(given.start.size()), solution);
-  solution.parameters = evaluation.place;
+  if (given.withCovariance) setCovariances(problem, place, held, solution);
 }
 
 }  // namespace

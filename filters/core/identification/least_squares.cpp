@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kFullRank = 1e-9;         // of singular values, columns scaled to one
 constexpr double kLargestGradient = 1e-3;  // where the tolerance is not what bounds it
-constexpr double kAtBound = 1e-9;
 
 /// Beside the library that this is compiled into, or wherever libraries are looked for.
 LeastSquaresFunction* load() {
@@ -39,6 +38,18 @@ LeastSquaresFunction* load() {
   return reinterpret_cast<LeastSquaresFunction*>(function);
 }
 
+/// Columns; those of zeros stay.
+Eigen::MatrixXd ofLengthOne(Eigen::MatrixXd columns) {
+  for (auto column : columns.colwise())
+    if (const double size = column.norm(); size > 0) column /= size;
+  return columns;
+}
+
+bool hasFullRank(const Eigen::MatrixXd& columns) {
+  const Eigen::VectorXd values = Eigen::BDCSVD<Eigen::MatrixXd>(columns).singularValues();
+  return values[values.size() - 1] > kFullRank * values[0];
+}
+
 /// What of the solution can be told from its residuals and their derivatives.
 void inspect(const LeastSquaresProblem& problem, LeastSquaresSolution& solution) {
   Eigen::VectorXd residuals;
@@ -48,19 +59,15 @@ void inspect(const LeastSquaresProblem& problem, LeastSquaresSolution& solution)
     throw std::runtime_error("the identification came to a place without finite residuals");
   const Eigen::VectorXd& x = solution.parameters;
   std::vector<int> inside;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double width = std::min(1.0, problem.upper[i] - problem.lower[i]);
-    if (x[i] > problem.lower[i] + kAtBound * width && x[i] < problem.upper[i] - kAtBound * width)
-      inside.push_back(static_cast<int>(i));
-  }
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (!isAtBound(x[i], problem.lower[i], problem.upper[i])) inside.push_back(static_cast<int>(i));
   const int count = static_cast<int>(inside.size());
+  const Eigen::MatrixXd all = ofLengthOne(jacobian);
+  if (count < x.size() && (solution.covariance.size() == 0 || !hasFullRank(all)))
+    solution.covariance = solution.heldCovariance;
   solution.weakest.setZero(x.size());
   if (count == 0) return;
-  const Eigen::MatrixXd moving = jacobian(Eigen::all, inside);
-  const Eigen::VectorXd sizes = moving.colwise().norm();
-  Eigen::MatrixXd scaled = moving;
-  for (int i = 0; i < count; ++i)
-    if (sizes[i] > 0) scaled.col(i) /= sizes[i];
+  const Eigen::MatrixXd scaled = all(Eigen::all, inside);
   const Eigen::BDCSVD<Eigen::MatrixXd> parts(scaled, Eigen::ComputeThinV);
   const Eigen::VectorXd& values = parts.singularValues();
   const Eigen::VectorXd least = parts.matrixV().col(count - 1);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <Eigen/Core>
 #include <functional>
 #include <stdexcept>
@@ -30,6 +31,12 @@ inline RobustLoss robustLossNamed(const std::string& name) {
   refuse("there is no loss '", name, "': choose one of none, huber, cauchy, tukey");
 }
 
+/// Whether a parameter is at a bound rather than between its bounds.
+inline bool isAtBound(double value, double lower, double upper) {
+  const double reach = 1e-9 * std::min(1.0, upper - lower);
+  return value <= lower + reach || value >= upper - reach;
+}
+
 /// Parameters within bounds whose residuals, in groups of three and over their standard deviation,
 /// shall be small.
 struct LeastSquaresProblem {
@@ -39,6 +46,7 @@ struct LeastSquaresProblem {
   RobustLoss loss = RobustLoss::None;
   double scale = 1;          ///< the norm of a group up to which the loss is about quadratic
   double tolerance = 1e-12;  ///< relative change of the sum of losses that ends it
+  bool withCovariance = true;
 
   /// @param residuals  3 #groups, set.
   /// @param jacobian   3 #groups by #parameters, set if not null.
@@ -50,13 +58,15 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresSolution {
   Eigen::VectorXd parameters;
-  /// Inverse of the loss-corrected J^T J; zero in rows and columns of parameters at a bound. Empty
-  /// where J has not full rank (weakest).
+  /// Inverse of the loss-corrected J^T J, as if there were no bounds. Where J has not full rank but
+  /// for parameters at a bound, these are held: their rows and columns are zero. Empty where J has
+  /// not full rank (weakest).
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd weakest;  ///< the combination, of norm 1, that residuals see least
-  double condition = 0;     ///< largest over smallest singular value of J
-  double cost = 0;          ///< half the sum of losses
-  double gradient = 0;      ///< of what can move, columns of J at length 1, over 1 + |residuals|
+  Eigen::MatrixXd heldCovariance;  ///< with those at a bound held, whatever the rank
+  Eigen::VectorXd weakest;         ///< the combination, of norm 1, that residuals see least
+  double condition = 0;  ///< largest over smallest singular value of J, without those at a bound
+  double cost = 0;       ///< half the sum of losses
+  double gradient = 0;   ///< of what can move, columns of J at length 1, over 1 + |residuals|
   int iterations = 0;
 };
 

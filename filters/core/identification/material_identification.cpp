@@ -33,12 +33,13 @@ Eigen::MatrixXd correlationsOf(const MaterialModel& model, const Eigen::MatrixXd
 void warnOfParameters(MaterialIdentification& result) {
   for (const IdentifiedParameter& p : result.parameters)
     if (p.isAtBound && p.unit == "m" && p.value == 0)
-      result.warnings.push_back("the support's yielding cannot be told from none");
-    else if (p.isAtBound)
       result.warnings.push_back(
-          sentence(p.name, " is at the bound ", shortly(p.value),
-                   " of what was looked in: the data ask for more, or the "
-                   "model differs from the body; its deviation is not known"));
+          sentence("the support's yielding cannot be told from none: E/k is below ",
+                   shortly(p.upper), " m (95 %)"));
+    else if (p.isAtBound)
+      result.warnings.push_back(sentence(p.name, " is at the bound ", shortly(p.value),
+                                         " of what was looked in: the data ask for more, or the "
+                                         "model differs from the body; its interval ends there"));
   for (const Material& material : result.materials)
     if (!isPlausibleModulus(material.youngsModulus()))
       result.warnings.push_back(
@@ -86,6 +87,8 @@ MaterialIdentification MaterialIdentifier::identify(const Measurements& measurem
   result.materials = model.materials(fit.unknowns());
   result.foundationLength = model.foundationLength(fit.unknowns());
   result.parameters = model.parameters(fit.unknowns(), solution.covariance);
+  for (int i = 0; i < model.count(); ++i)
+    model.setInterval(i, fit.intervalOf(model.combinationOf(i)), result.parameters[i]);
   result.correlations = correlationsOf(model, solution.covariance);
   result.interpolationError = model.response().error();
   result.samples = model.response().sampleCount();

@@ -41,8 +41,8 @@ struct IdentifiedParameter {
   std::string name;  ///< "Young's modulus" ...
   std::string unit;  ///< "Pa", "m" or none
   double value = 0;
-  double deviation = 0;         ///< standard; 0 at a bound
-  double lower = 0, upper = 0;  ///< of the interval of 95 %
+  double deviation = 0;         ///< standard; at a bound as if that were not there
+  double lower = 0, upper = 0;  ///< of the interval of 95 %, which ends at a bound at the latest
   bool isAtBound = false;
 };
 
@@ -58,13 +58,13 @@ struct MaterialIdentification {
   std::vector<Material> materials;  ///< #regions
   double foundationLength = 0;      ///< E / k of the first region (MeasuredResponse), m
   std::vector<IdentifiedParameter> parameters;
-  Eigen::MatrixXd correlations;  ///< #parameters, zero with what is at a bound
+  Eigen::MatrixXd correlations;  ///< #parameters
   Eigen::Matrix3Xd residuals;    ///< measured less predicted, m; NaN where not measured
   std::vector<int> outliers;     ///< indices into the displacements, ascending
   std::vector<ProbeFit> probes;
-  int valueCount = 0;  ///< components that count
-  double noise = 0;    ///< standard deviation of a residual's component, m
-  double misfit = -1;  ///< residuals over the deviations given, root mean square; -1: not given
+  int valueCount = 0;   ///< components that count
+  double noise = 0;     ///< standard deviation of a residual's component, m
+  double misfit = -1;   ///< residuals over the deviations given, root mean square; -1: not given
   double fitError = 0;  ///< residuals over displacements that count, root mean squares
   double holdOutError = -1;  ///< of displacements under probes left out, relative; -1: no folds
   Eigen::Matrix3Xd heldOutResiduals;  ///< of probes left out, outliers' too; empty: no folds

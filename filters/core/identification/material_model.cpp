@@ -6,19 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/profile_interval.h"
 #include "sentence.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kSoftestSupport = 10;  // E / k over the size of the body
 constexpr double kSomeSupport = 1e-3;
 constexpr int kMostRegions = 6;
-
-bool isAt(double value, double bound, double width) {
-  return std::abs(value - bound) <= 1e-9 * std::min(1.0, width);
-}
 
 }  // namespace
 
@@ -111,38 +107,48 @@ double MaterialModel::foundationLength(const Eigen::VectorXd& unknowns) const {
   return support() < 0 ? 0 : std::max(0.0, unknowns[support()]) * size_;
 }
 
+Eigen::VectorXd MaterialModel::combinationOf(int parameter) const {
+  Eigen::VectorXd combination = Eigen::VectorXd::Unit(count(), parameter);
+  if (regionOf(parameter) > 0) combination[0] = 1;  // ln E_r = ln E + ln E_r / E
+  return combination;
+}
+
 std::vector<IdentifiedParameter> MaterialModel::parameters(
     const Eigen::VectorXd& unknowns, const Eigen::MatrixXd& covariance) const {
-  const std::vector<Material> all = materials(unknowns);
   std::vector<IdentifiedParameter> parameters;
   for (int i = 0; i < count(); ++i) {
     IdentifiedParameter p;
-    p.isAtBound = isAt(unknowns[i], lower_[i], upper_[i] - lower_[i]) ||
-                  isAt(unknowns[i], upper_[i], upper_[i] - lower_[i]);
     const int region = regionOf(i);
-    if (region >= 0) {
-      p.name = all.size() == 1 ? "Young's modulus" : sentence("Young's modulus of region ", region);
-      p.unit = "Pa";
-      p.value = all[region].youngsModulus();
-      // Of ln E_r = ln E + ln E_r / E.
-      const double variance =
-          i == 0 ? covariance(0, 0) : covariance(0, 0) + 2 * covariance(0, i) + covariance(i, i);
-      const double relative = std::sqrt(std::max(0.0, variance));
-      p.deviation = p.value * relative;
-      p.lower = p.value * std::exp(-kNormal95 * relative);
-      p.upper = p.value * std::exp(kNormal95 * relative);
-    } else {
-      const double unit = i == support() ? size_ : 1;
-      p.name = i == support() ? "support's yielding length E/k" : "Poisson's ratio";
-      p.unit = i == support() ? "m" : "";
-      p.value = unit * unknowns[i];
-      p.deviation = unit * std::sqrt(std::max(0.0, covariance(i, i)));
-      p.lower = std::max(unit * lower_[i], p.value - kNormal95 * p.deviation);
-      p.upper = std::min(unit * upper_[i], p.value + kNormal95 * p.deviation);
-    }
+    p.name = region >= 0      ? unknowns_.regions == 1 ? std::string("Young's modulus")
+                                                       : sentence("Young's modulus of region ", region)
+                  : i == support() ? "support's yielding length E/k"
+                              : "Poisson's ratio";
+    p.unit = region >= 0 ? "Pa" : i == support() ? "m" : "";
+    p.isAtBound = isAtBound(unknowns[i], lower_[i], upper_[i]);
+    const Eigen::VectorXd combination = combinationOf(i);
+    const double value = combination.dot(unknowns),
+                 deviation = std::sqrt(std::max(0.0, combination.dot(covariance * combination)));
+    p.value = shown(i, value);
+    p.deviation = region >= 0 ? p.value * deviation : shown(i, deviation);
+    setInterval(i, {value - kNormal95 * deviation, value + kNormal95 * deviation}, p);
     parameters.push_back(p);
   }
   return parameters;
+}
+
+void MaterialModel::setInterval(int parameter, const Interval& interval,
+                                IdentifiedParameter& of) const {
+  const bool isModulus = regionOf(parameter) >= 0;
+  of.lower =
+      shown(parameter, isModulus ? interval.lower : std::max(interval.lower, lower_[parameter]));
+  of.upper =
+      shown(parameter, isModulus ? interval.upper : std::min(interval.upper, upper_[parameter]));
+}
+
+double MaterialModel::shown(int parameter, double combination) const {
+  return regionOf(parameter) >= 0 ? std::exp(combination)
+         : parameter == support() ? size_ * combination
+                                  : combination;
 }
 
 Eigen::VectorXd MaterialModel::unknownsOf(const Eigen::VectorXd& parameters) const {

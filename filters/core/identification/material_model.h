@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identification/material_identification.h"
+#include "identification/profile_interval.h"
 
 namespace palpate {
 
@@ -39,13 +40,21 @@ class MaterialModel {
   std::vector<Material> materials(const Eigen::VectorXd& unknowns) const;
   double foundationLength(const Eigen::VectorXd& unknowns) const;
 
-  /// Unknowns as people read them, with their standard deviations: of moduli and of lengths.
+  /// Unknowns as people read them, with their standard deviations, of moduli and of lengths, and
+  /// with the intervals that these make. The deviation of what is at a bound is as if that were not
+  /// there.
   std::vector<IdentifiedParameter> parameters(const Eigen::VectorXd& unknowns,
                                               const Eigen::MatrixXd& covariance) const;
+  /// What of the unknowns a parameter is a function of: ln E of its region, or an unknown.
+  Eigen::VectorXd combinationOf(int parameter) const;
+  /// @param interval  of that.
+  void setInterval(int parameter, const Interval& interval, IdentifiedParameter& of) const;
   /// The unknowns of parameters.
   Eigen::VectorXd unknownsOf(const Eigen::VectorXd& parameters) const;
 
  private:
+  double shown(int parameter, double combination) const;
+
   MaterialUnknowns unknowns_;
   double size_;
   ResponseInterpolation response_;

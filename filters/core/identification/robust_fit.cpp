@@ -40,8 +40,8 @@ double RobustFit::modulusBy(const Eigen::VectorXd& unit) const {
 }
 
 /// What is known beforehand are residuals behind those of the markers.
-LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
-                                      RobustLoss loss) const {
+LeastSquaresProblem RobustFit::problemOf(const Eigen::VectorXd& from,
+                                         const Eigen::VectorXd& weights, RobustLoss loss) const {
   const Eigen::VectorXd known = model_.precision.cwiseSqrt();
   const int priors = unknownCount_ < model_.count() ? (model_.count() + 2) / 3 : 0;
   LeastSquaresProblem problem;
@@ -53,11 +53,12 @@ LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::
   problem.loss = loss;
   problem.scale = kRobustScale;
   problem.tolerance = model_.tolerance;
-  problem.evaluate = [&](const Eigen::VectorXd& unknowns, Eigen::VectorXd& residuals,
+  problem.evaluate = [this, weights, known, priors, groups = problem.groups](
+                         const Eigen::VectorXd& unknowns, Eigen::VectorXd& residuals,
                          Eigen::MatrixXd* jacobian) {
     Eigen::MatrixXd derivatives;
     const Eigen::VectorXd moved = model_.displacements(unknowns, jacobian ? &derivatives : nullptr);
-    residuals.setZero(3 * problem.groups);
+    residuals.setZero(3 * groups);
     residuals.head(weights.size()) = weights.cwiseProduct(moved - table_.measured());
     if (priors > 0) residuals.segment(weights.size(), known.size()) = known.cwiseProduct(unknowns);
     if (!jacobian) return;
@@ -69,7 +70,16 @@ LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::
     progress_.report(0.5, "fit");
     return true;
   };
-  return solveLeastSquares(problem);
+  return problem;
+}
+
+LeastSquaresSolution RobustFit::solve(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
+                                      RobustLoss loss) const {
+  return solveLeastSquares(problemOf(from, weights, loss));
+}
+
+Interval RobustFit::intervalOf(const Eigen::VectorXd& combination) const {
+  return profileInterval(problemOf(unknowns_, weights(), RobustLoss::None), solution_, combination);
 }
 
 /// Exact data have no scale of their own.
@@ -113,21 +123,19 @@ void RobustFit::run(const Eigen::VectorXd& start) {
   };
   // What is known beforehand counts the more, the larger the scale.
   const bool isScaleFelt = unknownCount_ < model_.count();
-  if (loss_ == RobustLoss::None) {
-    if (isScaleFelt)
-      untilSettled(table_.weights(), loss_);
-    else
-      settle(table_.weights(), loss_);
-    return;
-  }
-  untilSettled(table_.weights(), loss_);
-  markOutliers();
-  for (int i = 0; i < kTrimmings; ++i) {
+  if (loss_ == RobustLoss::None && !isScaleFelt)
+    settle(table_.weights(), loss_);
+  else
+    untilSettled(table_.weights(), loss_);
+  if (loss_ != RobustLoss::None) {
+    markOutliers();
+    for (int i = 0; i < kTrimmings; ++i) {
+      requireEnough();
+      settle(inlierWeights(), RobustLoss::None);
+      if (!markOutliers()) break;
+    }
     requireEnough();
-    settle(inlierWeights(), RobustLoss::None);
-    if (!markOutliers()) break;
   }
-  requireEnough();
   if (isScaleFelt) return;
   solution_ = solve(unknowns_, inlierWeights() / scale_, RobustLoss::None);
   unknowns_ = solution_.parameters;

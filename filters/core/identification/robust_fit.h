@@ -11,6 +11,7 @@
 #include "identification/material_identification.h"
 #include "identification/measured_values.h"
 #include "identification/measurements.h"
+#include "identification/profile_interval.h"
 #include "progress.h"
 
 namespace palpate {
@@ -54,6 +55,8 @@ class RobustFit {
   const LeastSquaresSolution& solution() const { return solution_; }
   /// 3 #markers: 1 / standard deviation, 0 where not measured or an outlier.
   Eigen::VectorXd weights() const { return inlierWeights() / scale_; }
+  /// Values of a combination of the unknowns that the measurements allow at 95 %.
+  Interval intervalOf(const Eigen::VectorXd& combination) const;
   /// Of unknowns that the measurements determine, and not what was known before.
   double determinedCount() const;
 
@@ -73,6 +76,8 @@ class RobustFit {
   Eigen::VectorXd residualsAt(const Eigen::VectorXd& unknowns) const {
     return table_.measured() - model_.displacements(unknowns, nullptr);
   }
+  LeastSquaresProblem problemOf(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
+                                RobustLoss loss) const;
   LeastSquaresSolution solve(const Eigen::VectorXd& from, const Eigen::VectorXd& weights,
                              RobustLoss loss) const;
   double roundingOf(const Eigen::VectorXd& weights) const;

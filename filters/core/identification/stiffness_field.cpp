@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/profile_interval.h"
 #include "identification/robust_fit.h"
 #include "model/plausible_modulus.h"
 #include "sentence.h"
@@ -13,7 +14,6 @@
 namespace palpate {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kPoissonStep = 1e-4;
 constexpr double kTolerance = 1e-4;  // of fits, each step of which costs a factorisation
 constexpr int kUsualSolutions = 20;
@@ -183,17 +183,17 @@ void describe(const RobustFit& fit, const FieldModel& field, const StiffnessFiel
   if (!options.poisson) return;
   const double poisson = fit.unknowns()[1], deviation = deviations[1],
                width = options.poissonUpper - options.poissonLower;
-  if (deviation > width / std::sqrt(12.0))
+  const bool isBound = isAtBound(poisson, options.poissonLower, options.poissonUpper);
+  if (!isBound && deviation > width / std::sqrt(12.0))
     refuse("the measurements do not tell Poisson's ratio: its standard deviation is ",
            shortly(deviation), "; give it, or measure where the body is pressed aside, too");
-  const bool isAtBound = covariance(1, 1) == 0;
   told.parameters.push_back({"Poisson's ratio", "", poisson, deviation,
                              std::max(options.poissonLower, poisson - kNormal95 * deviation),
                              std::min(options.poissonUpper, poisson + kNormal95 * deviation),
-                             isAtBound});
-  if (isAtBound)
+                             isBound});
+  if (isBound)
     told.warnings.push_back(sentence("Poisson's ratio is at the bound ", shortly(poisson),
-                                     " of what was looked in; its deviation is not known"));
+                                     " of what was looked in; its interval ends there"));
   const double size = deviations[0] * deviation;
   told.correlations(0, 1) = told.correlations(1, 0) = size > 0 ? reported(0, 1) / size : 0;
 }

@@ -196,7 +196,7 @@ constexpr const char* ProbeRelativeResidual = "ProbeRelativeResidual"; // over t
 constexpr const char* ProbeOutliers = "ProbeOutliers";                 // how many, a tuple a probe
 constexpr const char* IdentifiedNames = "IdentifiedNames"; // strings: what was identified
 constexpr const char* IdentifiedUnits = "IdentifiedUnits"; // strings
-/// Value, standard deviation (0 at a bound), bounds of the interval of 95 %; a tuple a parameter.
+/// Value, standard deviation (at a bound as if that were not there), bounds of the interval of 95 %; a tuple a parameter.
 constexpr const char* IdentifiedParameters = "IdentifiedParameters";
 constexpr const char* IdentifiedCorrelations = "IdentifiedCorrelations"; // a row a tuple
 constexpr const char* YoungsModulusDeviation = "YoungsModulusDeviation"; // standard, Pa
