@@ -318,6 +318,18 @@ TEST(MaterialIdentification, AModulusThatNoMaterialHasTellsOfUnits) {
   EXPECT_TRUE(contains(result.warnings[0], "is no material's: check the units"));
 }
 
+TEST(MaterialIdentification, WithoutALossDeviationsAreByWhatIsLeft) {
+  const Sphere sphere(rigOf(0.4));
+  IdentificationOptions plain;
+  plain.loss = RobustLoss::None;
+  const auto robust = identifierOn(sphere.model, sphere.measurements).identify(sphere.measurements),
+             result = identifierOn(sphere.model, sphere.measurements, plain)
+                          .identify(sphere.measurements);
+  ASSERT_TRUE(robust.outliers.empty());
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NEAR(result.parameters[i].deviation / robust.parameters[i].deviation, 1, 1e-3) << i;
+}
+
 TEST(MaterialIdentification, ABoundIsSaidToBeOne) {
   const Sphere sphere(rigOf(0.4));
   IdentificationOptions options;
