@@ -28,6 +28,7 @@ struct Options {
   int probes = 5, markers = 50, seed = 1;
   double radius = 0, force = 0, tilt = 45, noise = 0.01, outliers = 0, missing = 0, yield = 0;
   bool withDeviations = false;
+  double placeNoise = 0;
   std::vector<double> rotation{0, 0, 0}, translation{0, 0, 0};
 };
 
@@ -64,6 +65,11 @@ void addOptions(CLI::App& command, Options& o) {
       ->check(isFinite())
       ->capture_default_str();
   command.add_flag("--with-deviations", o.withDeviations, "The table tells it");
+  command
+      .add_option("--place-noise", o.placeNoise,
+                  "Standard deviation of places as the table tells them, m")
+      ->check(isFinite())
+      ->capture_default_str();
   command.add_option("--outliers", o.outliers, "Share of displacements that are wrong")
       ->check(isFinite())
       ->capture_default_str();
@@ -97,6 +103,7 @@ void set(vtkRigSimulation* rig, const Options& o) {
   rig->SetTilt(o.tilt);
   rig->SetNoise(o.noise);
   rig->SetWithDeviations(o.withDeviations);
+  rig->SetPlaceNoise(o.placeNoise);
   rig->SetOutliers(o.outliers);
   rig->SetMissing(o.missing);
   rig->SetRotation(o.rotation.data());

@@ -118,8 +118,8 @@ def displacement_table(displacements, *, points=None, vertices=None, deviations=
 
 
 def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=None, tilt=45.0,
-                          noise=0.01, with_deviations=False, outliers=0.0, missing=0.0,
-                          rotation=(0, 0, 0), translation=(0, 0, 0), yield_length=0.0, seed=1):
+                          noise=0.01, with_deviations=False, place_noise=0.0, outliers=0.0,
+                          missing=0.0, rotation=(0, 0, 0), translation=(0, 0, 0), yield_length=0.0, seed=1):
     """The displacements that a rig would measure on a model, to try `identify` on.
 
     Parameters
@@ -139,6 +139,8 @@ def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=Non
         Standard deviation over the largest displacement.
     with_deviations : bool
         The table tells it.
+    place_noise : float
+        Standard deviation of markers' and contacts' places as the table tells them, each axis, m.
     outliers, missing : float
         Shares of the displacements that are wrong, and that are not seen.
     rotation, translation : array_like
@@ -178,6 +180,7 @@ def simulate_measurements(model, *, probes=5, markers=50, radius=None, force=Non
     rig.SetTilt(number(tilt, "tilt"))
     rig.SetNoise(number(noise, "noise"))
     rig.SetWithDeviations(flag(with_deviations, "with_deviations"))
+    rig.SetPlaceNoise(number(place_noise, "place_noise"))
     rig.SetOutliers(number(outliers, "outliers"))
     rig.SetMissing(number(missing, "missing"))
     rig.SetRotation(*vector(rotation, "rotation"))

@@ -4,11 +4,13 @@
 #include "identification/registration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "identification/least_squares.h"
@@ -37,10 +39,13 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return matrix;
 }
 
+/// Each once: a marker that several probes saw is one place.
 Eigen::Matrix3Xd placesOf(const Measurements& measurements) {
   std::vector<Eigen::Vector3d> places;
+  std::set<std::array<double, 3>> known;
   const auto add = [&](const RestPlace& place) {
-    if (place.vertex < 0) places.push_back(place.point);
+    const Eigen::Vector3d& p = place.point;
+    if (place.vertex < 0 && known.insert({p.x(), p.y(), p.z()}).second) places.push_back(p);
   };
   for (const Probe& probe : measurements.probes) add(probe.contact);
   for (const MeasuredDisplacement& measured : measurements.displacements) add(measured.marker);
@@ -163,14 +168,13 @@ void requireDetermined(const Eigen::MatrixXd& sensitivity) {
 struct Fit {
   Eigen::VectorXd motion;
   Eigen::VectorXd residuals;  ///< m
-  Eigen::MatrixXd covariance;
 };
 
 /// Robustly, from a motion on, each time with the scale that the fit before left.
 Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const SurfaceMesh& mesh,
             const std::function<bool()>& goOn) try {
   const double rounding = 1e-9 * mesh.diagonal();
-  Fit fit{start, {}, {}};
+  Fit fit{start, {}};
   alignment.evaluate(fit.motion, 1, fit.residuals, nullptr);
   LeastSquaresProblem problem;
   problem.lower.setConstant(6, -INFINITY);
@@ -185,9 +189,7 @@ Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const Surf
     problem.evaluate = [&](const Eigen::VectorXd& motion, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
       alignment.evaluate(motion, scale, r, j);
     };
-    const LeastSquaresSolution solution = solveLeastSquares(problem);
-    fit.motion = solution.parameters;
-    fit.covariance = solution.covariance;
+    fit.motion = solveLeastSquares(problem).parameters;
     alignment.evaluate(fit.motion, 1, fit.residuals, nullptr);
     if (fit.residuals.cwiseAbs().maxCoeff() < rounding) break;
   }
@@ -197,6 +199,18 @@ Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const Surf
   throw;
 }
 
+/// Of turns times the places' extent, and of shifts, by how far the places are off.
+Eigen::VectorXd deviationsOf(const Fit& fit, const Alignment& alignment, const SurfaceMesh& mesh) {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd rows;
+  alignment.evaluate(fit.motion, 1, residuals, &rows);
+  const double scale = medianScale(fit.residuals, 1e-9 * mesh.diagonal()), count = rows.rows() / 3;
+  // Of as many places as there are numbers of a motion none would be off.
+  const double taken = count / std::max(1.0, count - 6);
+  return scale * std::sqrt(taken) *
+         (rows.transpose() * rows).inverse().diagonal().cwiseMax(0).cwiseSqrt();
+}
+
 }  // namespace
 
 Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& measurements,
@@ -204,7 +218,7 @@ Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& meas
   const Eigen::Matrix3Xd places = placesOf(measurements);
   if (places.cols() < kLeastPlaces)
     refuse("a registration needs at least ", kLeastPlaces,
-           " places that are given by their coordinates, not ", places.cols());
+           " different places that are given by their coordinates, not ", places.cols());
   const Alignment alignment(mesh, places);
   if (!(alignment.extent() > 0)) refuse("all markers and contacts are at one place");
   Fit best = fitFrom(Eigen::VectorXd::Zero(6), alignment, mesh, goOn);
@@ -216,11 +230,9 @@ Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& meas
   Registration result;
   result.rotation = alignment.rotation(best.motion);
   result.translation = alignment.translation(best.motion);
-  if (best.covariance.size() > 0) {
-    result.rotationDeviation =
-        best.covariance.diagonal().head<3>().cwiseSqrt() / alignment.extent();
-    result.translationDeviation = best.covariance.diagonal().tail<3>().cwiseSqrt();
-  }
+  const Eigen::VectorXd deviations = deviationsOf(best, alignment, mesh);
+  result.rotationDeviation = deviations.head<3>() / alignment.extent();
+  result.translationDeviation = deviations.tail<3>();
   result.distance = best.residuals.norm() / std::sqrt(double(places.cols()));
   return result;
 }

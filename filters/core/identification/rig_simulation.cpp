@@ -55,6 +55,8 @@ void requireSense(const RigSettings& s) {
   if (!isShare(s.outliers) || !isShare(s.missing))
     refuse("shares of outliers and missing displacements must be at least 0 and below 1, not ",
            s.outliers, " and ", s.missing);
+  if (!(s.placeNoise >= 0 && std::isfinite(s.placeNoise)))
+    refuse("the noise of places must not be negative, not ", s.placeNoise, " m");
   if (!s.rotation.allFinite() || !s.translation.allFinite())
     refuse("the rig's frame must be finite");
   if (s.withDeviations && s.noise == 0) refuse("without noise there are no standard deviations");
@@ -129,6 +131,17 @@ Eigen::Matrix3d turnBy(const Eigen::Vector3d& degrees) {
   const double angle = degrees.norm() * M_PI / 180;
   return angle > 0 ? Eigen::AngleAxisd(angle, degrees.normalized()).toRotationMatrix()
                    : Eigen::Matrix3d::Identity().eval();
+}
+
+/// Markers keep their place, as the rig tells it, under all probes.
+void blur(Measurements& measurements, const RigSettings& s) {
+  if (s.placeNoise == 0) return;
+  Chance chance(s.seed + 1000003);  // so that all else stays as it is without
+  std::vector<Eigen::Vector3d> shifts;
+  for (int m = 0; m < s.markers; ++m) shifts.push_back(s.placeNoise * chance.normals());
+  for (std::size_t i = 0; i < measurements.displacements.size(); ++i)
+    measurements.displacements[i].marker.point += shifts[i % s.markers];
+  for (Probe& probe : measurements.probes) probe.contact.point += s.placeNoise * chance.normals();
 }
 
 /// Noise, outliers, what is not seen, and the rig's own frame.
@@ -210,6 +223,7 @@ Measurements simulateMeasurements(
       settings.force > 0 ? settings.force : kUsualDisplacement * mesh.diagonal() / largest;
   for (Probe& probe : measurements.probes) probe.force *= force;
   for (MeasuredDisplacement& measured : measurements.displacements) measured.displacement *= force;
+  blur(measurements, settings);
   spoil(measurements, settings, force * largest, chance);
   if (measurements.displacements.empty()) refuse("of so few displacements all are missing");
   return measurements;

@@ -18,8 +18,9 @@ struct RigSettings {
   double force = 0;              ///< N; 0 so that the largest displacement is 1 % of the diagonal
   double tilt = 45;              ///< largest angle of a force from the normal, degrees
   double noise = 0.01;           ///< standard deviation over the largest displacement
-  double outliers = 0;  ///< share of displacements that are wrong by as much as the largest
-  double missing = 0;   ///< share of displacements that are not seen
+  double outliers = 0;    ///< share of displacements that are wrong by as much as the largest
+  double missing = 0;     ///< share of displacements that are not seen
+  double placeNoise = 0;  ///< standard deviation of places as the rig tells them, each axis, m
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< of the rig's frame, degrees
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the rig's frame, m
   double foundationLength = 0;  ///< E / k of the support, m (MeasuredResponse)

@@ -25,6 +25,7 @@ void vtkRigSimulation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Tilt: " << this->Tilt << "\n"
      << indent << "Noise: " << this->Noise << "\n"
      << indent << "WithDeviations: " << this->WithDeviations << "\n"
+     << indent << "PlaceNoise: " << this->PlaceNoise << "\n"
      << indent << "Outliers: " << this->Outliers << "\n"
      << indent << "Missing: " << this->Missing << "\n"
      << indent << "SupportYieldLength: " << this->SupportYieldLength << "\n"
@@ -45,6 +46,7 @@ void vtkRigSimulation::Compute(vtkPolyData* input, vtkPolyData* output, vtkInfor
   rig.tilt = this->Tilt;
   rig.noise = this->Noise;
   rig.withDeviations = this->WithDeviations;
+  rig.placeNoise = this->PlaceNoise;
   rig.outliers = this->Outliers;
   rig.missing = this->Missing;
   rig.rotation = Eigen::Vector3d(this->Rotation);

@@ -65,6 +65,11 @@ public:
   vtkSetMacro(WithDeviations, bool);
   vtkGetMacro(WithDeviations, bool);
   vtkBooleanMacro(WithDeviations, bool);
+
+  /// Standard deviation of markers' and contacts' places as the table tells them, each axis, m; 0 by
+  /// default.
+  vtkSetMacro(PlaceNoise, double);
+  vtkGetMacro(PlaceNoise, double);
   vtkSetMacro(Outliers, double);
   vtkGetMacro(Outliers, double);
   vtkSetMacro(Missing, double);
@@ -112,6 +117,7 @@ private:
   double SupportYieldLength = 0;
   double Rotation[3] = { 0, 0, 0 }, Translation[3] = { 0, 0, 0 };
   bool WithDeviations = false;
+  double PlaceNoise = 0;
 };
 
 #endif
