@@ -24,6 +24,7 @@ namespace palpate::app {
 namespace {
 
 constexpr double kStrong = 0.9;  ///< correlation of what is hard to tell apart
+constexpr double kVague = 0.1;   ///< deviation of it, over its value
 
 bool isCorrection(vtkPolyData* model) {
   return model->GetFieldData()->GetArray("PriorHoldOutError");
@@ -72,7 +73,8 @@ std::string identified(vtkPolyData* model) {
            " (noise over correction, variances).</p>\n";
   text += "<p>Deviations and intervals are those that the noise of the measurements makes";
   const double error = fieldNumber(model, "ErrorEstimate", -1);
-  if (error >= 0) text += "; the mesh may add <b>" + percent(error) + "</b> to Young's modulus";
+  text += error >= 0 ? "; the mesh may add <b>" + percent(error) + "</b> to Young's modulus"
+                     : "; what the mesh adds was not estimated: compare with a finer one";
   text += ".";
   if (const double length = fieldNumber(model, "SupportYieldLength", 0); length > 0)
     text += " The support yields like an elastic foundation of E / " + number(length) + " m.";
@@ -81,7 +83,15 @@ std::string identified(vtkPolyData* model) {
   return text + "</p>\n";
 }
 
-/// Pairs that are hard to tell apart.
+/// Whether the deviation of a number is more than a tenth of it.
+bool isVague(vtkPolyData* model, std::size_t parameter) {
+  const auto value = [&](int c) {
+    return fieldComponentAt(model, "IdentifiedParameters", parameter, c);
+  };
+  return value(1) > kVague * std::abs(value(0));
+}
+
+/// Pairs that are hard to tell apart: as good as one number, of which little is known.
 std::vector<std::string> confusions(vtkPolyData* model) {
   const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames");
   std::vector<std::string> sentences;
@@ -89,10 +99,10 @@ std::vector<std::string> confusions(vtkPolyData* model) {
     for (std::size_t j = 0; j < i; ++j) {
       const double correlation =
           fieldComponentAt(model, "IdentifiedCorrelations", i, static_cast<int>(j));
-      if (std::abs(correlation) >= kStrong)
+      if (std::abs(correlation) >= kStrong && (isVague(model, i) || isVague(model, j)))
         sentences.push_back("the data hardly tell " + names[i] + " from " + names[j] +
                             ": their correlation is " + number(correlation, 2) +
-                            ", and their deviations are large together");
+                            ", so that what one is off by goes with what the other is");
     }
   return sentences;
 }
