@@ -46,12 +46,12 @@ struct IdentifiedParameter {
   bool isAtBound = false;
 };
 
-/// How one probe fits, over the markers that are no outliers.
+/// How one probe fits: residuals are over the markers that are no outliers.
 struct ProbeFit {
   std::string name;
-  int markers = 0, outliers = 0;
-  double residual = 0;  ///< root mean square of a component, m
-  double relative = 0;  ///< root of the sum of squares over that of the displacements
+  int markers = 0, outliers = 0;  ///< markers are all of them
+  double residual = 0;            ///< root mean square of a component, m
+  double relative = 0;            ///< root of the sum of squares over that of the displacements
 };
 
 struct MaterialIdentification {
