@@ -25,6 +25,7 @@
 #include "finite_check.h"
 #include "measurement_options.h"
 #include "report/identification_page.h"
+#include "report/identification_tables.h"
 #include "support_options.h"
 #include "terminal.h"
 #include "whole_file.h"
@@ -279,9 +280,12 @@ void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
   for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))
     printRow("made by", source);
   printParameters(model);
-  if (model->GetFieldData()->GetArray("RegistrationDistance"))
-    printRow("places off the surface",
-             number(fieldNumber(model, "RegistrationDistance", -1), 3) + " m (rms)");
+  if (model->GetFieldData()->GetArray("RegistrationDistance")) {
+    printRow("turn of the table's frame", registrationText(model).turn + " degrees about x, y, z");
+    printRow("its shift", registrationText(model).shift + " m");
+    printRow("places off the surface", number(fieldNumber(model, "RegistrationDistance", -1), 3) +
+                                           " m (rms); what it leaves open is not in the intervals");
+  }
   printRow("noise", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m");
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     printRow("noise over that given", number(misfit, 3));

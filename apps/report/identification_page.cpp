@@ -79,7 +79,10 @@ std::string identified(vtkPolyData* model) {
   if (const double length = fieldNumber(model, "SupportYieldLength", 0); length > 0)
     text += " The support yields like an elastic foundation of E / " + number(length) + " m.";
   if (const double distance = fieldNumber(model, "RegistrationDistance", -1); distance >= 0)
-    text += " After registration places are " + number(distance, 3) + " m (rms) off the surface.";
+    text += " After registration, by a turn of " + registrationText(model).turn +
+            " degrees about x, y, z and a shift of " + registrationText(model).shift +
+            " m, places are " + number(distance, 3) +
+            " m (rms) off the surface; what that leaves open is not in the intervals.";
   return text + "</p>\n";
 }
 

@@ -9,6 +9,7 @@
 #include <vtkVariant.h>
 
 #include <cmath>
+#include <Eigen/Geometry>
 #include <filesystem>
 
 #include "report/html.h"
@@ -41,6 +42,23 @@ double fieldComponentAt(vtkPolyData* model, const char* name, std::size_t tuple,
 std::string vectorIn(const Eigen::Vector3d& v, int digits) {
   return "(" + number(v.x(), digits) + ", " + number(v.y(), digits) + ", " + number(v.z(), digits) +
          ")";
+}
+
+RegistrationText registrationText(vtkPolyData* model) {
+  if (!model->GetFieldData()->GetArray("RegistrationDistance")) return {};
+  constexpr double kDegrees = 180 / EIGEN_PI;
+  const auto vector = [&](const char* name, int first) {
+    Eigen::Vector3d v;
+    for (int c = 0; c < 3; ++c) v[c] = fieldComponentAt(model, name, 0, first + c);
+    return v;
+  };
+  Eigen::Matrix3d rotation;
+  for (int row = 0; row < 3; ++row) rotation.row(row) = vector("RegistrationRotation", 3 * row);
+  const Eigen::AngleAxisd turn(rotation);
+  return {vectorIn(kDegrees * turn.angle() * turn.axis()) + " +- " +
+              vectorIn(kDegrees * vector("RegistrationDeviation", 0), 2),
+          vectorIn(vector("RegistrationTranslation", 0)) + " +- " +
+              vectorIn(vector("RegistrationDeviation", 3), 2)};
 }
 
 std::string fileName(const std::string& path) {

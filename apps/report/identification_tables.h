@@ -19,6 +19,13 @@ double fieldComponentAt(vtkPolyData* model, const char* name, std::size_t tuple,
 /// Three numbers in brackets.
 std::string vectorIn(const Eigen::Vector3d& vector, int digits = 4);
 
+/// How the table's frame was moved onto the surface, with deviations: the turn as a vector,
+/// degrees, and the shift, m. Nothing where it was not.
+struct RegistrationText {
+  std::string turn, shift;
+};
+RegistrationText registrationText(vtkPolyData* model);
+
 /// What was identified, with deviations and intervals.
 std::string parameterTable(vtkPolyData* model);
 /// Nothing for a single parameter.

@@ -297,6 +297,22 @@ class Program(Folder):
             palpate.array(palpate.read(out), "MeasuredDisplacement"),
             palpate.array(identified(), "MeasuredDisplacement"))
 
+    def test_prints_how_a_frame_was_moved(self):
+        kidney = palpate.refine(palpate.read(palpate.example("kidney")), levels=1)
+        body = palpate.precompute(kidney, young=YOUNG, poisson=POISSON, estimate_error=False)
+        surface, data = self.folder / "kidney.vtp", self.folder / "rig.vtp"
+        palpate.write(kidney, surface)
+        palpate.write(palpate.simulate_measurements(body, rotation=(2, -3, 4), translation=(1e-3, 0, 0),
+                                                    markers=80), data)
+        done = run("identify", surface, self.folder / "model.vtp", "--measurements", data, "--register",
+                   "--folds", 0, "--no-estimate")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        vectors = r"\((.*?)\) \+- \((.*?)\)"
+        turn, _ = re.search(r"turn of the table's frame +" + vectors, done.stdout).groups()
+        self.assertAlmostEqual(np.linalg.norm([float(x) for x in turn.split(",")]), 29**0.5, delta=0.01)
+        _, deviation = re.search(r"its shift +" + vectors + " m", done.stdout).groups()
+        self.assertLess(max(float(x) for x in deviation.split(",")), 1e-6)
+
     def test_names_outliers_by_line(self):
         surface, data = self.made()
         lines = data.read_text().splitlines()
