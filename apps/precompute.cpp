@@ -62,23 +62,17 @@ void addAccuracyOptions(CLI::App& command, Options& o) {
                       "Largest relative error, estimated, e.g. 0.05: refines the surface as needed")
           ->check(CLI::Range(1e-12, 1 - 1e-12))
           ->group(chosen);
-  command.add_option("--max-levels", o.levels, "Refinements at most, 0 to keep the surface")
-      ->check(CLI::Range(0, 9))
-      ->needs(tolerance)
-      ->capture_default_str()
-      ->group(chosen);
-  command
-      .add_option("--max-layers", o.layers,
-                  "Layers along the rim of the support at most, 0 for none")
-      ->check(CLI::Range(0, 9))
-      ->needs(tolerance)
-      ->capture_default_str()
-      ->group(chosen);
-  command.add_option("--max-vertices", o.vertices, "Vertices at most, refined or not")
-      ->check(CLI::Range(4, 100000))
-      ->needs(tolerance)
-      ->capture_default_str()
-      ->group(chosen);
+  const auto addMost = [&](const char* name, int& value, const CLI::Range& range,
+                           const char* what) {
+    command.add_option(name, value, what)
+        ->check(range)
+        ->needs(tolerance)
+        ->capture_default_str()
+        ->group(chosen);
+  };
+  addMost("--max-levels", o.levels, {0, 9}, "Refinements at most, 0 to keep the surface");
+  addMost("--max-layers", o.layers, {0, 9}, "Layers along the rim of the support, 0 for none");
+  addMost("--max-vertices", o.vertices, {4, 100000}, "Vertices at most, refined or not");
   addSubdivision(command, o.subdivision)->needs(tolerance)->group(chosen);
   command.add_option("--precision", o.precision, "double, mixed or float")
       ->check(CLI::IsMember({"double", "mixed", "float"}))
