@@ -161,7 +161,11 @@ class Headless(Program):
             "devices": [{"name": "m", "type": "simulated"}]}
         for torque in (False, True):
             scene.write_text(json.dumps({**described, "effects": {"elastic_elastic": True, "torque": torque}}))
-            printed = self.run_well("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+            ran = self.start("touch", "--scene", scene, "--headless", "--seconds", 0.1)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertRegex(ran.stderr, r"^palpate: warning: the scene's model 1 overlaps the first by "
+                                         r"0\.002 m: .*\n$")
+            printed = ran.stdout
             self.assertEqual(torque, "torque" in printed, printed)
             found = re.search(r"(?m)^body 1   force (\S+) (\S+) (\S+) N, of body 0$", printed)
             self.assertTrue(found, printed)
