@@ -98,6 +98,11 @@ TEST(TouchRehearsals, StrokeAsTheSceneAllows) {
   EXPECT_LT(held.depth, 0.5 * edge);
   EXPECT_GT(held.watched, 0);
   EXPECT_EQ(held.speed, 0.1);
+  Scene gentle = ballOf(4 * edge, "simulated");
+  gentle.safety.largestForce = SafetySettings{}.largestForce / 1000;
+  EXPECT_EQ(rehearse(gentle, {touched}).depth, held.depth);
+  gentle.safety.largestForce = 0;  // none
+  EXPECT_NEAR(rehearse(gentle, {touched}).depth, edge, digits);
 }
 
 TEST(TouchRehearsals, TellHowFarTheyAreAndStop) {

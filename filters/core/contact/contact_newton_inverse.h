@@ -59,7 +59,6 @@ class ContactNewtonInverse {
   /// inverse is made of as many as contacts.
   double workOfUpdate() const { return 162.0 * (active_ + 1) * (active_ + 1); }
   static double workOfRebuild(double contacts) { return 54 * contacts * contacts * contacts; }
-  double workOfApply() const { return 18.0 * active_ * active_; }
 
  private:
   using Block = Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>;

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "greens/counting_greens.h"
-#include "haptics/force_safety.h"
 #include "haptics/tool_touch.h"
 #include "mesh/surface_locator.h"
 
@@ -134,9 +133,10 @@ class Rehearsal {
   /// N, in the scene, that the hand of a tool is given at most; a mouse gives none.
   double largestForceOf(const SceneTool& tool) const {
     const SceneDevice& device = scene_.devices[tool.device];
-    return device.type == DeviceType::Mouse
+    const double largest = scene_.safety.largestForce;
+    return device.type == DeviceType::Mouse || largest == 0
                ? std::numeric_limits<double>::infinity()
-               : SafetySettings{}.largestForce / device.mapping.forceScale;
+               : largest / device.mapping.forceScale;
   }
 
   /// Of the triangles with a corner that yields.
