@@ -19,6 +19,7 @@ void addRefine(CLI::App& program) {
   struct Options {
     std::string input, output, subdivision = "loop";
     int levels = 1, layers = 0;
+    double limitShare = 0;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("refine", "Subdivide a surface");
@@ -30,6 +31,12 @@ void addRefine(CLI::App& program) {
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
   addSubdivision(*command, options->subdivision);
+  command
+      ->add_option("--limit-share", options->limitShare,
+                   "How far vertices are moved to the smooth surface that Loop's subdivision tends "
+                   "to; with 0.5 the mesh encloses as much")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
   command
       ->add_option("--support-layers", options->layers,
                    "Layers of triangles along the rim of the support, each a quarter as wide")
@@ -43,6 +50,7 @@ void addRefine(CLI::App& program) {
     filter->SetInputData(readSurface(options->input));
     filter->SetNumberOfLevels(options->levels);
     filter->SetSupportLayers(options->layers);
+    filter->SetLimitShare(options->limitShare);
     filter->SetSubdivision(static_cast<int>(subdivisionNamed(options->subdivision)));
     const auto fine = run(filter);
     writeSurface(fine, options->output);

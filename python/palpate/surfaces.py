@@ -110,7 +110,7 @@ def on_original(data):
     return run(algorithm)
 
 
-def refine(surface, levels=1, subdivision="loop", support_layers=0):
+def refine(surface, levels=1, subdivision="loop", support_layers=0, limit_share=0):
     """Subdivide a closed surface, with its boundary types and other data.
 
     Parameters
@@ -126,6 +126,9 @@ def refine(surface, levels=1, subdivision="loop", support_layers=0):
     support_layers : int
         How many layers, each a quarter as wide as the one before, triangles are then cut into along the
         rim of the support, where stresses are singular: 0 to 9. The surface needs `BoundaryType`.
+    limit_share : float
+        How far vertices are moved, before that, to the smooth surface that Loop's subdivision tends to:
+        from 0 to 1. With 0.5 the mesh encloses what that surface does, to a higher order.
 
     Returns
     -------
@@ -143,10 +146,14 @@ def refine(surface, levels=1, subdivision="loop", support_layers=0):
     >>> palpate.refine(palpate.read(palpate.example("spatula")), 2).GetNumberOfPoints()
     620
     """
+    share = number(limit_share, "limit_share")
+    if not 0 <= share <= 1:
+        raise Error(f"limit_share must be from 0 to 1, not {share:g}")
     refinement = vtkSurfaceRefinement()
     refinement.SetInputData(surface_of(surface))
     refinement.SetNumberOfLevels(whole_number(levels, "levels", 8))
     refinement.SetSubdivision(choice(subdivision, SUBDIVISIONS, "subdivision"))
+    refinement.SetLimitShare(share)
     refinement.SetSupportLayers(whole_number(support_layers, "support_layers", 9))
     return run(refinement)
 

@@ -95,7 +95,7 @@ class Tolerance(unittest.TestCase):
                                                 "StiffnessNorm")).all())
 
     def test_is_the_same_surface_as_by_hand(self):
-        surface = palpate.refine(palpate.read(KIDNEY), 2)
+        surface = palpate.refine(palpate.read(KIDNEY), 2, limit_share=0.5)
         algorithm = chooser(0.1)
         algorithm.Update()
         self.assertTrue((points_of(algorithm.GetOutput()) == points_of(surface)).all())
@@ -109,7 +109,7 @@ class Tolerance(unittest.TestCase):
         algorithm.Update()
         model = algorithm.GetOutput()
         self.assertIn("with 1 layer along the rim of the support", palpate.array(model, "ToleranceSteps")[-1])
-        surface = palpate.refine(palpate.read(KIDNEY), 2, support_layers=1)
+        surface = palpate.refine(palpate.read(KIDNEY), 2, support_layers=1, limit_share=0.5)
         self.assertTrue((points_of(model) == points_of(surface)).all())
         byhand = palpate.precompute(surface, None, None, precision="float", integration_tolerance=5e-4,
                                     support_patch=True)
@@ -143,6 +143,11 @@ class Tolerance(unittest.TestCase):
         surface.GetPointData().AddArray(as_vtk(lower_cap(surface), "BoundaryType", 1, np.uint8))
         model = palpate.precompute(surface, 1e4, 0.3, tolerance=0.4)
         self.assertEqual(model.GetNumberOfPoints(), 162)
+
+    def test_keeps_a_control_mesh_that_may_not_be_refined(self):
+        algorithm = chooser(0.9, levels=0)
+        algorithm.Update()
+        self.assertTrue((points_of(algorithm.GetOutput()) == points_of(palpate.read(KIDNEY))).all())
 
     def test_of_another_youngs_modulus_searches_no_more(self):
         surface = palpate.read(KIDNEY)

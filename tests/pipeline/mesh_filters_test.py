@@ -113,6 +113,22 @@ class Refinement(unittest.TestCase):
         self.assertTrue((triangles_of(twice) == triangles_of(once_and_again)).all())
         self.assertLess(np.abs(points_of(twice) - points_of(once_and_again)).max(), 1e-15)
 
+    def test_limit_positions_are_those_of_any_level(self):
+        surface = palpate.read(palpate.example("spatula"))
+        limit = palpate.refine(surface, 0, limit_share=1)
+        self.assertLess(np.abs(points_of(palpate.refine(surface, 2, limit_share=1))[:len(points_of(limit))]
+                               - points_of(limit)).max(), 1e-15)
+        half = palpate.refine(surface, 0, limit_share=0.5)
+        self.assertLess(np.abs(2 * points_of(half) - points_of(limit) - points_of(surface)).max(), 1e-15)
+        for subdivision in ("flat", "curved"):
+            kept = palpate.refine(surface, 0, subdivision, limit_share=1)
+            self.assertTrue((points_of(kept) == points_of(surface)).all())
+
+    def test_a_share_beyond_the_limit_is_refused(self):
+        for share in (-0.1, 1.1, float("nan")):
+            with self.assertRaisesRegex(palpate.Error, "limit_share must be"):
+                palpate.refine(cube(2), 1, limit_share=share)
+
     def test_flat_subdivision_keeps_the_body_and_curved_keeps_edges_and_rounds_the_rest(self):
         for surface, subdivision, expected in ((cube(2), "flat", 1), (cube(2), "curved", 1),
                                                (sphere(1), "flat", volume(sphere(1)))):

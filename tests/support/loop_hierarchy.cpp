@@ -3,6 +3,7 @@
 
 #include "support/loop_hierarchy.h"
 
+#include "mesh/loop_limit.h"
 #include "mesh/loop_subdivision.h"
 #include "mesh/smooth_patches.h"
 #include "model/graded_model.h"
@@ -21,7 +22,9 @@ ElasticModel LoopHierarchy::operator()(int level, int layers) {
     meshes_.push_back(
         {{next.points, next.triangles}, refineBoundaryTypes(next, last.boundaryTypes)});
   }
-  const auto mesh = meshes_[level].shape.mesh();
+  const auto control = meshes_[level].shape.mesh();
+  const auto mesh = std::make_shared<SurfaceMesh>(towardsLoopLimit(*control, kVolumeShare),
+                                                  control->triangles());
   const BoundaryConditions conditions(meshes_[level].boundaryTypes);
   const ElasticModel model(mesh, Material(base_.youngsModulus, base_.poissonRatio), conditions,
                            splitAtSupport(*mesh, conditions, findSmoothPatches(*mesh, 30)));

@@ -11,8 +11,8 @@
 
 namespace palpate::test {
 
-/// Loop's levels of a control mesh from data/, the support a patch of its own, with layers along
-/// its rim.
+/// Loop's levels of a control mesh from data/, moved so that they enclose what their limit does, the
+/// support a patch of its own, with layers along its rim.
 class LoopHierarchy {
  public:
   /// @param name  as readDataModel.

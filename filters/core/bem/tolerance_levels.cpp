@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -91,13 +92,18 @@ const ToleranceLevels::Solved& ToleranceLevels::solveWithCoarser(MeshSetting set
   return solve(setting, progress.part(0.1, 1));
 }
 
+std::vector<int> ToleranceLevels::verticesOf(int level, MeshSetting finer) const {
+  if (level < 0 && finer.level >= 0) return coarsened_->vertices;
+  std::vector<int> same(at({level, 0}).vertices());
+  std::iota(same.begin(), same.end(), 0);
+  return same;
+}
+
 LoadDifferences ToleranceLevels::differences(MeshSetting finer, MeshSetting coarser,
                                              const SpreadLoads& loads) const {
-  const Solved &fine = at(finer), &coarse = at(coarser), &shared = at({coarser.level, 0});
-  std::vector<int> vertices(coarse.vertices(), -1);
-  const bool isCoarsened = coarser.level < 0 && finer.level >= 0;
-  for (int v = 0; v < shared.vertices(); ++v)
-    vertices[v] = isCoarsened ? coarsened_->vertices[v] : v;
+  const Solved &fine = at(finer), &coarse = at(coarser);
+  std::vector<int> vertices = verticesOf(coarser.level, finer);
+  vertices.resize(coarse.vertices(), -1);
   return compareUnderLoads(*fine.result.view(), fine.model.mesh(), *coarse.result.view(),
                            coarse.model.mesh(), vertices, loads);
 }
@@ -112,25 +118,44 @@ LoadDifferences ToleranceLevels::rimErrors(MeshSetting layered, const SpreadLoad
   return errors;
 }
 
+LoadDifferences ToleranceLevels::restOfDifference(MeshSetting setting,
+                                                  const SpreadLoads& loads) const {
+  const int level = setting.level - 1;
+  const MeshSetting layered = layeredBefore(setting);
+  const double ratio = edgeRatio(setting.level),
+               rim = (ratio - 1) * widthOf(setting.layers) / ratio / (1 - widthOf(layered.layers));
+  std::map<MeshSetting, double> factors;  // of one mesh in both differences the sum
+  factors[{level, setting.layers}] -= 1;
+  factors[layered] -= rim;
+  factors[{level, 0}] += rim;
+  std::vector<std::shared_ptr<const GreensFunctions>> greens{at(setting).result.view()};
+  std::vector<ComparedMesh> meshes{
+      {*greens[0], at(setting).model.mesh(), verticesOf(level, setting), 1}};
+  for (const auto& [mesh, factor] : factors) {
+    greens.push_back(at(mesh).result.view());
+    meshes.push_back({*greens.back(), at(mesh).model.mesh(), verticesOf(level, mesh), factor});
+  }
+  return compareUnderLoads(meshes, *at({level, 0}).result.view(), loads);
+}
+
 ErrorEstimate ToleranceLevels::estimateByParts(MeshSetting setting) const {
-  const MeshSetting before{setting.level - 1, setting.layers};
-  const SpreadLoads spread = loads(before.level);
-  LoadDifferences errors = differences(setting, before, spread);
-  const LoadDifferences rim = rimErrors(layeredBefore(setting), spread);
-  const double ratio = edgeRatio(setting.level), square = ratio * ratio;
-  const double left = widthOf(setting.layers) / ratio;
+  const SpreadLoads spread = loads(setting.level - 1);
+  const LoadDifferences growth = differences(setting, {setting.level - 1, setting.layers}, spread),
+                        rim = rimErrors(layeredBefore(setting), spread);
+  LoadDifferences errors = restOfDifference(setting, spread);
+  const double ratio = edgeRatio(setting.level), left = widthOf(setting.layers) / ratio;
   // Between levels the rest of the error differs by (ratio^2 - 1) times what is left of it, the
-  // rim's part by (ratio - 1) times. Walls that lock are too stiff by a factor 1 + x, where x goes
-  // with the square of the edges: their difference is to be seen relative to the coarser answer.
-  const auto combine = [&](std::vector<double>& error, const std::vector<double>& growth,
+  // rim's part by (ratio - 1) times. Where the two are in the surface has nothing in common, so
+  // that their squares add. Walls that lock are too stiff by a factor 1 + x, where x goes with the
+  // square of the edges: their difference is to be seen relative to the coarser answer.
+  const auto combine = [&](std::vector<double>& error, const std::vector<double>& grown,
                            const std::vector<double>& ofRim) {
     for (std::size_t load = 0; load < error.size(); ++load)
-      error[load] =
-          (std::max(growth[load], 1.0) * error[load] + (square - ratio) * left * ofRim[load]) /
-          (square - 1);
+      error[load] = std::hypot(std::max(grown[load], 1.0) * error[load] / (ratio * ratio - 1),
+                               left * ofRim[load]);
   };
-  combine(errors.field, errors.fieldGrowth, rim.field);
-  combine(errors.contact, errors.contactGrowth, rim.contact);
+  combine(errors.field, growth.fieldGrowth, rim.field);
+  combine(errors.contact, growth.contactGrowth, rim.contact);
   ErrorEstimate estimate = otherErrors(*at(setting).result.view());
   addDiscretization(errors, 1, spread.length, estimate);
   return estimate;

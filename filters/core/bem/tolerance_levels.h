@@ -81,6 +81,10 @@ class ToleranceLevels {
 
  private:
   ElasticModel model(MeshSetting setting) const;
+  /// The numbers that vertices of a level without layers have in a mesh of the same or a finer one.
+  std::vector<int> verticesOf(int level, MeshSetting finer) const;
+  /// What is left of the difference between levels without the rim's part.
+  LoadDifferences restOfDifference(MeshSetting setting, const SpreadLoads& loads) const;
 
   const MeshHierarchy& hierarchy_;
   int mostVertices_;

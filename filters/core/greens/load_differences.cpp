@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace palpate {
 namespace {
@@ -96,34 +97,45 @@ SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions&
   return loads;
 }
 
+LoadDifferences compareUnderLoads(const std::vector<ComparedMesh>& meshes,
+                                  const GreensFunctions& shared, const SpreadLoads& loads) {
+  std::vector<int> rows;
+  for (int row : shared.info().conditions.freeNodes())
+    if (std::all_of(meshes.begin(), meshes.end(),
+                    [&](const ComparedMesh& m) { return m.vertices[row] >= 0; }))
+      rows.push_back(row);
+  Eigen::VectorXd weights(3 * rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    weights.segment<3>(3 * i).setConstant(shared.vertexArea(rows[i]));
+  LoadDifferences differences;
+  for (int vertex : loads.vertices) {
+    std::vector<Eigen::MatrixX3d> answers;
+    for (const ComparedMesh& m : meshes) {
+      std::vector<int> there;
+      for (int row : rows) there.push_back(m.vertices[row]);
+      auto answer = respond(m.greens, m.mesh, m.vertices[vertex], loads.length, there);
+      if (answer) answers.push_back(std::move(*answer));
+    }
+    if (answers.size() < meshes.size()) continue;
+    Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(3 * rows.size(), 3);
+    for (std::size_t i = 0; i < meshes.size(); ++i) sum += meshes[i].factor * answers[i];
+    const Eigen::Index at = 3 * (std::lower_bound(rows.begin(), rows.end(), vertex) - rows.begin());
+    const auto middle = [&](const Eigen::MatrixX3d& m) { return m.middleRows<3>(at).norm(); };
+    differences.field.push_back(relative(sum, answers[0], weights));
+    differences.contact.push_back(middle(sum) / middle(answers[0]));
+    differences.fieldGrowth.push_back(relative(answers[0], answers[1], weights));
+    differences.contactGrowth.push_back(middle(answers[0]) / middle(answers[1]));
+  }
+  return differences;
+}
+
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,
                                   const GreensFunctions& coarser, const SurfaceMesh& coarserMesh,
                                   const std::vector<int>& vertices, const SpreadLoads& loads) {
-  std::vector<int> rows, finerRows;
-  for (int row : coarser.info().conditions.freeNodes())
-    if (vertices[row] >= 0) {
-      rows.push_back(row);
-      finerRows.push_back(vertices[row]);
-    }
-  Eigen::VectorXd weights(3 * rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    weights.segment<3>(3 * i).setConstant(coarser.vertexArea(rows[i]));
-  LoadDifferences differences;
-  for (int vertex : loads.vertices) {
-    const auto fine = respond(finer, finerMesh, vertices[vertex], loads.length, finerRows);
-    if (!fine) continue;
-    const auto coarse = respond(coarser, coarserMesh, vertex, loads.length, rows);
-    if (!coarse) continue;
-    const Eigen::MatrixX3d difference = *fine - *coarse;
-    differences.field.push_back(relative(difference, *fine, weights));
-    const Eigen::Index at = 3 * (std::lower_bound(rows.begin(), rows.end(), vertex) - rows.begin());
-    differences.contact.push_back(difference.middleRows<3>(at).norm() /
-                                  fine->middleRows<3>(at).norm());
-    differences.fieldGrowth.push_back(relative(*fine, *coarse, weights));
-    differences.contactGrowth.push_back(fine->middleRows<3>(at).norm() /
-                                        coarse->middleRows<3>(at).norm());
-  }
-  return differences;
+  std::vector<int> own(coarserMesh.vertexCount());
+  std::iota(own.begin(), own.end(), 0);
+  return compareUnderLoads({{finer, finerMesh, vertices, 1}, {coarser, coarserMesh, own, -1}},
+                           coarser, loads);
 }
 
 LoadDifferences compareUnderLoads(const GreensFunctions& finer, const SurfaceMesh& finerMesh,

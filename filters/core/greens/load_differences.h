@@ -25,17 +25,32 @@ struct SpreadLoads {
 SpreadLoads chooseSpreadLoads(const SurfaceMesh& mesh, const BoundaryConditions& conditions,
                               int count);
 
-/// How the answers of a finer and a coarser mesh of one body differ under loads, relative to the
-/// finer's: one entry a load for which both have all columns.
+/// How the answers of meshes of one body differ under loads, relative to the first's: one entry a
+/// load for which all have all columns.
 struct LoadDifferences {
   std::vector<double> field;  ///< of the displacement, L2 over the free surface, in all directions
   std::vector<double> contact;  ///< of the 3 by 3 compliance in the load's middle, Frobenius
-  std::vector<double> fieldGrowth, contactGrowth;  ///< the finer's norms over the coarser's
+  std::vector<double> fieldGrowth, contactGrowth;  ///< the first's norms over the second's
 
   /// Root mean square, and what 95 % of the entries do not exceed; -1 if there are none.
   static double mean(const std::vector<double>& differences);
   static double most(const std::vector<double>& differences);
 };
+
+/// A mesh whose answers are part of a comparison.
+struct ComparedMesh {
+  const GreensFunctions& greens;
+  const SurfaceMesh& mesh;
+  std::vector<int> vertices;  ///< #shared: their numbers here; negative for those that it lacks
+  double factor = 1;          ///< of its answers
+};
+
+/// The sum of factors times answers, at the free vertices of a mesh that all share, if slightly
+/// moved.
+/// @param meshes  two or more.
+/// @param shared  of the mesh that has the loads.
+LoadDifferences compareUnderLoads(const std::vector<ComparedMesh>& meshes,
+                                  const GreensFunctions& shared, const SpreadLoads& loads);
 
 /// @param finer     over a mesh that has the coarser one's vertices, if slightly moved.
 /// @param vertices  #coarser nodes, their numbers in the finer mesh; negative for those that it

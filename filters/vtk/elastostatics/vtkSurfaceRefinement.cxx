@@ -5,6 +5,7 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "mesh/loop_limit.h"
 #include "mesh/rim_grading.h"
 #include "mesh/smooth_patches.h"
 #include "mesh/subdivision.h"
@@ -29,6 +30,7 @@ void vtkSurfaceRefinement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << "\n"
      << indent << "SupportLayers: " << this->SupportLayers << "\n"
      << indent << "Subdivision: " << this->Subdivision << "\n"
+     << indent << "LimitShare: " << this->LimitShare << "\n"
      << indent << "SmoothAngle: " << this->SmoothAngle << "\n";
 }
 
@@ -85,6 +87,12 @@ void inheritCellData(vtkPolyData* coarse, const std::vector<int>& parentTriangle
   }
 }
 
+void moveTowardsLimit(vtkPolyData* surface, double share)
+{
+  const palpate::SurfaceMesh mesh(convert::pointsOf(surface), convert::trianglesOf(surface));
+  convert::setSurface(surface, palpate::towardsLoopLimit(mesh, share), mesh.triangles());
+}
+
 void grade(vtkPolyData* surface, int layers)
 {
   vtkNew<vtkPolyData> coarse;
@@ -100,11 +108,17 @@ void grade(vtkPolyData* surface, int layers)
 
 void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
-  if (this->NumberOfLevels == 0 && this->SupportLayers == 0)
+  const bool isMoved = this->LimitShare > 0 && this->Subdivision == LOOP;
+  if (this->NumberOfLevels == 0 && this->SupportLayers == 0 && !isMoved)
   {
     return;
   }
   convert::removeMeshResults(output);
+  if (this->NumberOfLevels > 0 || isMoved)
+  {
+    convert::removeFoundPatches(
+      output, palpate::SurfaceMesh(convert::pointsOf(output), convert::trianglesOf(output)));
+  }
   for (int step = 0; step < this->NumberOfLevels; ++step)
   {
     if (!this->ReportProgress(double(step) / this->NumberOfLevels, "refine"))
@@ -114,10 +128,6 @@ void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
     vtkNew<vtkPolyData> coarse;
     coarse->ShallowCopy(output);
     const palpate::SurfaceMesh mesh(convert::pointsOf(coarse), convert::trianglesOf(coarse));
-    if (step == 0)
-    {
-      convert::removeFoundPatches(coarse, mesh);
-    }
     Eigen::VectorXi patches = convert::storedPatches(coarse);
     if (this->Subdivision == CURVED && patches.size() == 0)
     {
@@ -130,6 +140,10 @@ void vtkSurfaceRefinement::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
     convert::setSurface(output, level.points, level.triangles);
     interpolatePointData(coarse, level, output);
     inheritCellData(coarse, level.parentTriangle, output);
+  }
+  if (isMoved)
+  {
+    moveTowardsLimit(output, this->LimitShare);
   }
   if (this->SupportLayers > 0)
   {

@@ -9,6 +9,9 @@
  * Green's functions, vertex areas, stiffnesses and results of contacts are dropped, as they belong to
  * the coarse mesh, and so are smooth patches that were found, not given, unless Subdivision is curved.
  *
+ * By LimitShare of Loop's subdivision, vertices are then moved towards where more levels would lead
+ * them, on the smooth surface that the input controls (palpate::loopLimit).
+ *
  * SupportLayers then cut the triangles along the rim of the support into layers that get thinner towards
  * it (palpate::gradeTowardsSupport), where stresses are singular and most of the error of Green's
  * functions comes from. They leave the surface where it is.
@@ -65,6 +68,18 @@ public:
 
   ///@{
   /**
+   * How far vertices are moved, after the levels, from where Loop's subdivision has them to the smooth
+   * surface that it tends to, from 0 to 1. Where that curves outwards, its levels are too large by half of
+   * this way and chords of the surface (1) too small by the other half; in between (0.5) a mesh encloses
+   * what the surface does. What was moved is no control mesh of the surface any more. Of the other
+   * subdivisions it changes nothing, as their vertices stay. Default 0.
+   */
+  vtkSetClampMacro(LimitShare, double, 0, 1);
+  vtkGetMacro(LimitShare, double);
+  ///@}
+
+  ///@{
+  /**
    * Edges whose triangles' normals differ by more than this angle (degrees, default 30) are sharp for
    * the curved subdivision, unless the input has a cell array `SmoothPatch`.
    */
@@ -84,6 +99,7 @@ private:
   int NumberOfLevels = 1;
   int SupportLayers = 0;
   int Subdivision = LOOP;
+  double LimitShare = 0;
   double SmoothAngle = 30;
 };
 

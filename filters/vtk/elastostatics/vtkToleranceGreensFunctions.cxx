@@ -6,6 +6,7 @@
 #include "array_names.h"
 #include "bem/tolerance_search.h"
 #include "conversion.h"
+#include "mesh/loop_limit.h"
 #include "mesh/shells.h"
 #include "model_arrays.h"
 #include "vtkSurfaceRefinement.h"
@@ -62,18 +63,19 @@ void vtkToleranceGreensFunctions::Compute(
   raw->ShallowCopy(input);
   std::vector<vtkSmartPointer<vtkPolyData>> levels{ raw };
   std::map<std::pair<int, int>, SurfaceLevel> meshes;
+  const double share = this->MaximumNumberOfLevels > 0 ? palpate::kVolumeShare : 0;
   const auto at = [&](int level, int layers) -> const SurfaceLevel&
   {
     while (static_cast<int>(levels.size()) <= level)
     {
-      levels.push_back(this->Refined(levels.back(), 1, 0));
+      levels.push_back(this->Refined(levels.back(), 1, 0, 0));
     }
     const auto found = meshes.find({ level, layers });
     if (found != meshes.end())
     {
       return found->second;
     }
-    const auto surface = layers > 0 ? this->Refined(levels[level], 0, layers) : levels[level];
+    const auto surface = this->Refined(levels[level], 0, layers, share);
     const auto key = std::make_pair(level, layers);
     return meshes.emplace(key, SurfaceLevel{ surface, this->ModelOf(surface) }).first->second;
   };
@@ -83,7 +85,7 @@ void vtkToleranceGreensFunctions::Compute(
       palpate::ToleranceResult result = this->Search(
         [&](int level, int layers) { return at(level, layers).Model; });
       const palpate::ElasticModel& chosen = at(result.level, result.layers).Model;
-      this->WarnOfVolume(at(0, 0).Model, chosen, result.greens.info.diagnostics.warnings);
+      this->WarnOfVolume(this->ModelOf(raw), chosen, result.greens.info.diagnostics.warnings);
       convert::setGreensFunctions(arrays, chosen, std::move(result.greens));
       this->Level = result.level;
       this->Layers = result.layers;
@@ -125,13 +127,14 @@ void vtkToleranceGreensFunctions::WarnOfVolume(const palpate::ElasticModel& give
 }
 
 vtkSmartPointer<vtkPolyData> vtkToleranceGreensFunctions::Refined(
-  vtkPolyData* surface, int levels, int layers)
+  vtkPolyData* surface, int levels, int layers, double limitShare)
 {
   vtkNew<vtkSurfaceRefinement> refinement;
   refinement->SetInputData(surface);
   refinement->SetNumberOfLevels(levels);
   refinement->SetSupportLayers(layers);
   refinement->SetSubdivision(this->Subdivision);
+  refinement->SetLimitShare(limitShare);
   refinement->SetSmoothAngle(this->GetSmoothAngle());
   refinement->Update();
   if (refinement->GetFailureMessage()[0])

@@ -8,6 +8,8 @@
  * Takes what vtkBoundaryElementGreensFunctions takes and chooses the rest: whether the surface is
  * refined, how often, and with how many layers along the rim of its support (vtkSurfaceRefinement, by
  * Subdivision); the tolerance of the integrals; single or double precision.
+ * Levels of a surface that the input controls by Loop's subdivision enclose what that does (LimitShare
+ * 0.5).
  * Levels are computed from the coarsest on, until the estimated error of displacements and contact
  * compliances, as 95 % of the loads do not exceed it, is at most ErrorTolerance
  * (palpate::computeToTolerance). The support gets smooth patches of its own (SupportPatch is on).
@@ -51,7 +53,8 @@ public:
 
   ///@{
   /**
-   * How often the surface may be refined; 0 to keep it as it is. Default 4.
+   * How often the surface may be refined; 0 to keep it as it is, also where it controls another. Default
+   * 4.
    */
   vtkSetClampMacro(MaximumNumberOfLevels, int, 0, 9);
   vtkGetMacro(MaximumNumberOfLevels, int);
@@ -91,7 +94,8 @@ private:
   vtkToleranceGreensFunctions(const vtkToleranceGreensFunctions&) = delete;
   void operator=(const vtkToleranceGreensFunctions&) = delete;
 
-  vtkSmartPointer<vtkPolyData> Refined(vtkPolyData* surface, int levels, int layers);
+  vtkSmartPointer<vtkPolyData> Refined(
+    vtkPolyData* surface, int levels, int layers, double limitShare);
   palpate::ToleranceResult Search(const std::function<palpate::ElasticModel(int, int)>& mesh);
   void WarnOfVolume(const palpate::ElasticModel& given, const palpate::ElasticModel& refined,
     std::vector<std::string>& warnings) const;
