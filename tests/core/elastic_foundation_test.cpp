@@ -171,6 +171,65 @@ TEST(ElasticFoundation, TakesPartOfWhatActsOnFreeVertices) {
   EXPECT_LT((found - found.transpose()).norm(), 1e-12 * found.norm());
 }
 
+TEST(ElasticFoundation, KeepsTheProbesOfItsBody) {
+  // A bar without contraction between an even pull p and springs: below it, and also at its top.
+  constexpr double height = 4, normal = 0.8, onTop = 0.6;
+  const Eigen::Vector3d place(0.4, 0.55, 1.2);
+  SolidProblem bar = solidProblem(kuhnBox({1, 1, height}, {3, 3, 12}).mesh(), onBase, kModulus, 0);
+  FiniteElementOptions options = allColumns(bar.model);
+  options.probes = place;
+  const auto firm = bar.greens(options);
+  const SurfaceMesh& mesh = bar.model.mesh();
+  std::vector<double> topArea(mesh.vertexCount(), 0);
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    if (mesh.triangleNormals()(2, f) > 0.5)
+      for (int v : mesh.triangles().col(f)) topArea[v] += mesh.triangleAreas()[f] / 3;
+  for (const bool isHeldAbove : {false, true}) {
+    Eigen::Matrix3Xd springs =
+        foundationSprings(mesh, bar.model.conditions().fixedNodes(), normal, normal);
+    for (int v = 0; v < mesh.vertexCount() && isHeldAbove; ++v)
+      springs(2, 3 * v + 2) += onTop * topArea[v];
+    const auto greens = onElasticFoundation(*firm, bar.model, springs).greens.take();
+    const auto stiffer = greens->withYoungsModulus(3 * kModulus);  // springs and all
+    // p = stress + onTop u(height), where u(z) = stress (1 / normal + z / E).
+    const double stress =
+        1 / (1 + (isHeldAbove ? onTop * (1 / normal + height / kModulus) : 0));
+    for (const auto& [served, scale] : {std::pair(greens, 1.), std::pair(stiffer, 3.)}) {
+      const ProbeRows& rows = *served->info().probes;
+      ProbeValues values = ProbeValues::Zero();
+      for (int v = 0; v < mesh.vertexCount(); ++v)
+        rows.accumulate(0, v, Eigen::Vector3d(0, 0, topArea[v] / mesh.vertexAreas()[v]), values);
+      const ProbedField field = fieldOf(values, rows.stiffness(0));
+      EXPECT_NEAR(field.stress(2, 2) / stress, 1, 0.02);  // the pull is uneven at the top's edges
+      EXPECT_NEAR(scale * field.displacement.z() / (stress * (1 / normal + place.z() / kModulus)),
+                  1, 0.01);
+      EXPECT_LT(std::abs(field.stress(0, 2)) + std::abs(field.stress(0, 0)), 0.05);
+    }
+  }
+}
+
+TEST(ElasticFoundation, ProbesFollowASupportThatIsMoved) {
+  // What a fixed vertex' column does inside: moved as one, the support takes the body with it, also
+  // where only some of it has been released, onto springs that are too soft to be felt.
+  SolidProblem block = solidProblem(kuhnBox({1, 1, 1}, {2, 2, 2}).mesh(), onBase, kModulus, 0.48);
+  FiniteElementOptions options = allColumns(block.model);
+  options.probes = Eigen::Vector3d(0.3, 0.6, 0.4);
+  const auto firm = block.greens(options);
+  const int released = block.model.conditions().fixedNodes().front();
+  Eigen::Matrix3Xd springs = Eigen::Matrix3Xd::Zero(3, 3 * block.model.mesh().vertexCount());
+  springs.middleCols<3>(3 * released).diagonal().setConstant(1e-9);
+  const auto loosened = onElasticFoundation(*firm, block.model, springs).greens.take();
+  const auto stiffer = firm->withYoungsModulus(5 * kModulus);
+  const Eigen::Vector3d shift(0.1, -0.2, 0.3);
+  for (const auto& greens : {firm, loosened, stiffer}) {
+    ProbeValues values = ProbeValues::Zero();
+    for (int v : greens->info().conditions.fixedNodes())
+      greens->info().probes->accumulate(0, v, shift, values);
+    EXPECT_LT((values.head<3>() - shift).norm(), 1e-7);
+    EXPECT_LT(values.tail<10>().norm(), 1e-7);
+  }
+}
+
 TEST(ElasticFoundation, HoldsAnUnsupportedBodyAsItHoldsAReleasedOne) {
   // The same springs by two ways: a support released, and a body that nothing held. What differs is
   // how each discretisation has the support's edge.

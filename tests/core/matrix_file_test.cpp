@@ -246,6 +246,13 @@ TEST(MatrixFile, BulkDataThatCannotBeMeantAreRefused) {
   refused(header + entry + "GRID,7,,0.\nGRID,7,,1.\n", "grid point 7 is given twice");
 }
 
+TEST(MatrixFile, BinaryFilesOfOtherProgramsAreRefusedWithWhatToWriteInstead) {
+  // A record of Fortran's: its length, whole numbers, its length.
+  const TemporaryPath file(bytesOf(std::vector<std::int32_t>{12, 8, 100, 1, 12}));
+  EXPECT_TRUE(isRefused([&] { readMatrixFile(file.path()); }, "HBMAT with its mapping file"));
+  EXPECT_TRUE(isRefused([&] { readNodeFile(file.path()); }, "this is a binary file"));
+}
+
 TEST(MatrixFile, PathsThatAreNoFilesAreRefused) {
   const auto refused = [](const std::string& path, const std::string& words) {
     EXPECT_TRUE(isRefused<std::runtime_error>([&] { readMatrixFile(path); }, words));

@@ -88,7 +88,7 @@ std::uint64_t fingerprintWith(const HeldDisplacements& held, std::uint64_t ofMod
       .value();
 }
 
-/// Rows of probes in the model's units, of the nodes whose columns there are and that are free.
+/// Rows of probes in the model's units, of the nodes whose columns there are.
 std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Matrix3Xd& points,
                                           const GreensFunctionsInfo& info,
                                           const Eigen::MatrixXd& values,
@@ -96,8 +96,7 @@ std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Ma
                                           double stiffness) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(values.rows(), 3 * info.conditions.nodeCount());
   for (std::size_t c = 0; c < info.columnNodes.size(); ++c)
-    if (const int node = info.columnNodes[c]; !info.conditions.isFixed(node))
-      rows.middleCols<3>(3 * node) = perGiven[c] * values.middleCols<3>(3 * c);
+    rows.middleCols<3>(3 * info.columnNodes[c]) = perGiven[c] * values.middleCols<3>(3 * c);
   std::vector<Matrix6d> stiffnesses;
   for (const fem::SolidProbe& probe : fem::locateProbes(body, points)) {
     const Eigen::Index row = 13 * static_cast<Eigen::Index>(stiffnesses.size());

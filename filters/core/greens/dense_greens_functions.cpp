@@ -4,6 +4,7 @@
 #include "greens/dense_greens_functions.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "greens/weighted_columns.h"
 
@@ -15,6 +16,18 @@ void requireSize(std::size_t values, std::size_t columns, int nodes, const char*
     throw std::invalid_argument("there are " + std::to_string(values) + " values for " +
                                 std::to_string(columns) + kind + "columns of " +
                                 std::to_string(nodes) + " nodes");
+}
+
+/// Rows of free nodes are per pascal, those of fixed ones per metre.
+std::shared_ptr<const ProbeRows> stiffer(const ProbeRows& probes,
+                                         const BoundaryConditions& conditions, double factor) {
+  const ProbeRows perPascal = probes.stiffer(factor);
+  Eigen::MatrixXd rows = perPascal.rows();
+  for (int node : conditions.fixedNodes()) rows.middleCols<3>(3 * node) *= factor;
+  std::vector<Matrix6d> stiffness;
+  for (int point = 0; point < probes.count(); ++point)
+    stiffness.push_back(perPascal.stiffness(point));
+  return std::make_shared<const ProbeRows>(probes.points(), std::move(rows), std::move(stiffness));
 }
 
 }  // namespace
@@ -125,8 +138,7 @@ std::shared_ptr<const GreensFunctions> DenseGreensFunctions<Scalar>::withYoungsM
     scaledInfo.diagnostics.rockingCompliance /= factor;
   for (int node = 0; node < nodeCount() && scaledInfo.weightResponse.size() > 0; ++node)
     if (!isFixed(node)) scaledInfo.weightResponse.middleRows<3>(3 * node) /= factor;
-  if (scaledInfo.probes)
-    scaledInfo.probes = std::make_shared<const ProbeRows>(scaledInfo.probes->stiffer(factor));
+  if (scaledInfo.probes) scaledInfo.probes = stiffer(*scaledInfo.probes, info().conditions, factor);
   auto scaled = std::make_shared<DenseGreensFunctions<Scalar>>(std::move(scaledInfo), matrix_,
                                                                patchMatrix_, keeper_);
   scaled->stiffnessScale_ = stiffnessScale_ * factor;

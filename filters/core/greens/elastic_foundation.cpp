@@ -55,7 +55,8 @@ struct Springs {
   }
 };
 
-/// The answers of a body to all that is given: columns of Xi, and what its weight does.
+/// The answers of a body to all that is given: columns of Xi, and what its weight does; inside, at
+/// its probes, those to the former.
 class Answers {
  public:
   Answers(const GreensFunctions& greens, const ElasticModel& model, const Eigen::Matrix3Xd& springs,
@@ -75,17 +76,35 @@ class Answers {
     answers_.resize(3 * rows.size(), 3 * columns_.size() + (isWeighed ? 3 : 0));
     greens.gather(nodeList(rows), nodeList(columns_), answers_.data());
     if (isWeighed) answers_.rightCols<3>() = greens.info().weightResponse;
+    const ProbeRows* probes = greens.info().probes.get();
+    inside_ = Eigen::MatrixXd::Zero(probes ? probes->rows().rows() : 0, answers_.cols());
+    for (std::size_t c = 0; probes && c < columns_.size(); ++c)
+      inside_.middleCols<3>(3 * c) = probes->rows().middleCols<3>(3 * columns_[c]);
   }
 
   const std::vector<int>& columns() const { return columns_; }
   const std::vector<unsigned char>& types() const { return types_; }
   const Eigen::MatrixXd& matrix() const { return answers_; }
 
+  /// Null where the body has none.
+  std::shared_ptr<const ProbeRows> probes() const {
+    const ProbeRows* before = greens_.info().probes.get();
+    if (!before) return nullptr;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(inside_.rows(), before->rows().cols());
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      rows.middleCols<3>(3 * columns_[c]) = inside_.middleCols<3>(3 * c);
+    std::vector<Matrix6d> stiffness;
+    for (int point = 0; point < before->count(); ++point)
+      stiffness.push_back(before->stiffness(point));
+    return std::make_shared<const ProbeRows>(before->points(), std::move(rows),
+                                             std::move(stiffness));
+  }
+
   /// Lets fixed vertices move on their springs.
   void release() {
     const std::vector<int>& nodes = where_.released;
     if (nodes.empty()) return;
-    const Eigen::MatrixXd moved = columnsOf(nodes);
+    const Eigen::MatrixXd moved = columnsOf(answers_, nodes), movedInside = columnsOf(inside_, nodes);
     Eigen::MatrixXd stiffness = rowsOf(nodes, moved);
     scaleRows(nodes, stiffness);
     if (greens_.info().reciprocal) stiffness = ((stiffness + stiffness.transpose()) / 2).eval();
@@ -97,11 +116,13 @@ class Answers {
       for (std::size_t c = 0; c < columns_.size(); ++c)
         if (columns_[c] == nodes[i]) {
           answers_.middleCols<3>(3 * c).setZero();  // from a displacement to a traction
+          inside_.middleCols<3>(3 * c).setZero();
           forces.middleCols<3>(3 * c).setZero();
           forces.block<3, 3>(3 * i, 3 * c).diagonal().setConstant(greens_.vertexArea(nodes[i]));
         }
     const Eigen::MatrixXd displacement = solved(stiffness, forces);
     answers_.noalias() += moved * displacement;
+    inside_.noalias() += movedInside * displacement;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       answers_.middleRows<3>(3 * nodes[i]) = displacement.middleRows<3>(3 * i);
   }
@@ -111,16 +132,16 @@ class Answers {
     const std::vector<int>& nodes = where_.free;
     const bool isLoose = model_.domain() == Domain::Unsupported;
     if (nodes.empty()) return;
-    Eigen::MatrixXd perSpring = columnsOf(nodes);  // displacements that the springs cause
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      perSpring.middleCols<3>(3 * i) =
-          (perSpring.middleCols<3>(3 * i) * blockOf(nodes[i]) / greens_.vertexArea(nodes[i]))
-              .eval();
+    // What the springs cause.
+    const Eigen::MatrixXd perSpring = stretched(nodes, columnsOf(answers_, nodes)),
+                          insidePerSpring = stretched(nodes, columnsOf(inside_, nodes));
     const Eigen::Index count = perSpring.cols();
     const Eigen::MatrixXd loosened =
         Eigen::MatrixXd::Identity(count, count) + rowsOf(nodes, perSpring);
     if (!isLoose) {
-      answers_ -= (perSpring * solved(loosened, rowsOf(nodes, answers_))).eval();
+      const Eigen::MatrixXd stretches = solved(loosened, rowsOf(nodes, answers_));
+      answers_.noalias() -= perSpring * stretches;
+      inside_.noalias() -= insidePerSpring * stretches;
       return;
     }
     // With the rigid motion alpha: loosened u_s - R_s alpha = v_s, R_s^T S u_s = resultants.
@@ -149,12 +170,20 @@ class Answers {
  private:
   Eigen::Matrix3d blockOf(int node) const { return springs_.middleCols<3>(3 * node); }
 
-  Eigen::MatrixXd columnsOf(const std::vector<int>& nodes) const {
-    Eigen::MatrixXd result(answers_.rows(), 3 * nodes.size());
+  Eigen::MatrixXd columnsOf(const Eigen::MatrixXd& all, const std::vector<int>& nodes) const {
+    Eigen::MatrixXd result(all.rows(), 3 * nodes.size());
     std::size_t i = 0;  // both ascend
     for (std::size_t c = 0; c < columns_.size() && i < nodes.size(); ++c)
-      if (columns_[c] == nodes[i]) result.middleCols<3>(3 * i++) = answers_.middleCols<3>(3 * c);
+      if (columns_[c] == nodes[i]) result.middleCols<3>(3 * i++) = all.middleCols<3>(3 * c);
     return result;
+  }
+
+  /// From per traction to per stretch of these nodes' springs.
+  Eigen::MatrixXd stretched(const std::vector<int>& nodes, Eigen::MatrixXd columns) const {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      columns.middleCols<3>(3 * i) =
+          (columns.middleCols<3>(3 * i) * blockOf(nodes[i]) / greens_.vertexArea(nodes[i])).eval();
+    return columns;
   }
 
   static Eigen::MatrixXd rowsOf(const std::vector<int>& nodes, const Eigen::MatrixXd& matrix) {
@@ -191,7 +220,7 @@ class Answers {
   const Springs& where_;
   std::vector<unsigned char> types_;
   std::vector<int> columns_;
-  Eigen::MatrixXd answers_;
+  Eigen::MatrixXd answers_, inside_;
 };
 
 }  // namespace
@@ -261,6 +290,7 @@ FoundedGreensFunctions onElasticFoundation(const GreensFunctions& greens, const 
   Eigen::Map<Eigen::MatrixXd>(result.greens.matrix.data(), answers.matrix().rows(), columns) =
       answers.matrix().leftCols(columns);
   if (answers.matrix().cols() > columns) info.weightResponse = answers.matrix().rightCols<3>();
+  info.probes = answers.probes();
   info.diagnostics.reciprocityDefect =
       makeReciprocal(result.greens.matrix.data(), info.conditions, info.vertexAreas,
                      info.columnNodes, info.reciprocal);

@@ -36,7 +36,7 @@ struct FoundedGreensFunctions {
 /// Exact for the Green's functions given; costs a factorisation and a product of their size.
 ///
 /// The result is of domain Given: springs are part of what it is of. Another Young's modulus scales
-/// them, too. What the body's weight does goes with it where it was known.
+/// them, too. What the body's weight does goes with it where it was known, and its probes.
 /// @param model    its domain, and surface, conditions and patches that the Green's functions are
 /// of.
 /// @param springs  3 by 3 #V, symmetric blocks, N/m: positive definite at vertices that are

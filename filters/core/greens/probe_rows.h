@@ -31,8 +31,8 @@ ProbedField fieldOf(const ProbeValues& values, const Matrix6d& stiffness);
 class ProbeRows {
  public:
   /// @param points     3 by #points, m.
-  /// @param rows       13 #points by 3 #nodes: ProbeValues per pascal; zero for nodes that bear
-  ///                   none.
+  /// @param rows       13 #points by 3 #nodes: ProbeValues per pascal at free nodes, per metre at
+  ///                   fixed ones; zero where no column was computed.
   /// @param stiffness  of each point's material, Pa, Voigt.
   /// @throws std::invalid_argument if sizes differ.
   ProbeRows(Eigen::Matrix3Xd points, Eigen::MatrixXd rows, std::vector<Matrix6d> stiffness);
@@ -43,14 +43,14 @@ class ProbeRows {
   const Eigen::MatrixXd& rows() const { return rows_; }
   const Matrix6d& stiffness(int point) const { return stiffness_[point]; }
 
-  /// values += what a traction at a node does at a point.
-  /// @param traction  Pa.
+  /// values += what is given at a node does at a point.
+  /// @param traction  Pa, at a fixed node its displacement, m.
   void accumulate(int point, int node, const Eigen::Vector3d& traction,
                   ProbeValues& values) const noexcept {
     values.noalias() += rows_.block<13, 3>(13 * point, 3 * node) * traction;
   }
 
-  /// The body with all its stiffness so many times as large.
+  /// The body with all its stiffness so many times as large, of free nodes.
   ProbeRows stiffer(double factor) const;
 
   /// Those at these places.

@@ -44,12 +44,22 @@ Eigen::MatrixXd readTable(std::string_view bytes, const std::string& path) {
       values.data(), rows, columns);
 }
 
+/// Binary files that are no NumPy arrays, such as Ansys' .sub and .full or NASTRAN's .op2 and .op4.
+void refuseBinary(std::string_view bytes, const std::string& path) {
+  if (bytes.find('\0') != bytes.npos)
+    refuse(path,
+           ": this is a binary file of a kind that is not read: have Ansys write the superelement's "
+           "matrix as text (of .sub and .full files, HBMAT with its mapping file), NASTRAN punch "
+           "DMIG cards (.pch), or save the matrix as a NumPy .npy or Matrix Market file");
+}
+
 GivenMatrix readByContent(std::string_view bytes, const std::string& path,
                           const std::string& name) {
   if (isNumpy(bytes)) return GivenMatrix(readNumpy(bytes, path), "NumPy", path);
   if (isMatrixMarket(bytes)) return readMatrixMarket(bytes, path);
   if (hasCard(bytes, "DMIG")) return readDmig(bytes, path, name);
   if (isHarwellBoeing(bytes)) return readHarwellBoeing(bytes, path);
+  refuseBinary(bytes, path);
   return GivenMatrix(readTable(bytes, path), "text", path);
 }
 
@@ -70,6 +80,7 @@ NodeTable readNodeFile(const std::string& path) {
   const std::string bytes = readBytes(path);
   if (isNumpy(bytes)) return nodesOf(readNumpy(bytes, path), path);
   if (hasCard(bytes, "GRID")) return readGridPoints(bytes, path);
+  refuseBinary(bytes, path);
   return nodesOf(readTable(bytes, path), path);
 }
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace palpate::convert
 {
@@ -90,16 +91,19 @@ std::optional<StoredProbes> storedProbesOf(vtkPolyData* surface, const Eigen::Ma
     return std::nullopt;
   }
   const Eigen::Matrix3Xd displacement = contactVectors(surface, arrays::Displacement);
+  Eigen::Matrix3Xd given = contactVectors(surface, arrays::Traction);
   for (int node : info.conditions.fixedNodes())
   {
-    if (!displacement.col(node).isZero(0))
+    given.col(node) = displacement.col(node);
+    if (!given.col(node).isZero(0) && !served.greens->hasColumn(node))
     {
       throw std::invalid_argument("vertex " + std::to_string(node) +
-        " of the support is moved, whose part of the inside's fields is not known");
+        " of the support is moved, whose part of the inside's fields is not known: precompute with "
+        "--support-columns (in Python columns=np.arange(n))");
     }
   }
   return StoredProbes{ info.probes->at(places, tolerance * served.mesh->diagonal()), served.mesh,
-    contactVectors(surface, arrays::Traction) };
+    std::move(given) };
 }
 
 void setStresses(vtkDataSetAttributes* attributes, const std::vector<Eigen::Matrix3d>& gradients,

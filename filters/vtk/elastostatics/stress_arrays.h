@@ -35,12 +35,13 @@ struct StoredProbes
 {
   ProbeRows rows;
   std::shared_ptr<const SurfaceMesh> mesh;
-  Eigen::Matrix3Xd traction; // 3 by #points
+  Eigen::Matrix3Xd given; // 3 by #points: tractions, at fixed vertices displacements
 };
 
 /// Those at these places of a body of several or anisotropic materials; none for others, whose inside the
 /// surface tells.
-/// @throws also for such a body without rows of one of the places, or whose fixed vertices were moved.
+/// @throws also for such a body without rows of one of the places, or whose fixed vertices were moved
+/// without Green's functions of theirs.
 std::optional<StoredProbes> storedProbesOf(vtkPolyData* surface, const Eigen::Matrix3Xd& places);
 
 /// Adds Strain, Stress (six components each, as VTK orders them), VonMisesStress and PrincipalStress.

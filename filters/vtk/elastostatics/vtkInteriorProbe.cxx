@@ -135,7 +135,7 @@ void readRows(const palpate::convert::StoredProbes& probes, vtkPointSet* set, vt
     palpate::ProbeValues values = palpate::ProbeValues::Zero();
     for (int node = 0; node < rows.nodeCount(); ++node)
     {
-      rows.accumulate(point, node, probes.traction.col(node), values);
+      rows.accumulate(point, node, probes.given.col(node), values);
     }
     const Eigen::Vector3d place = rows.points().col(point);
     const Eigen::Vector3d surface = palpate::placeOf(*probes.mesh, locator.nearest(place));
