@@ -26,6 +26,7 @@ struct Options {
   std::string input, output;
   double stiffness = 0, shear = -1;
   std::vector<double> springs;  // four each: place and stiffness
+  std::vector<double> probes;   // three each
 };
 
 /// Adds springs at the vertices nearest to their places to those that the surface has.
@@ -80,6 +81,11 @@ void addFoundation(CLI::App& program) {
       ->add_option("--spring", options->springs,
                    "Springs to ground at the nearest vertex, the same in all directions, N/m")
       ->type_name("X Y Z K ...");
+  command
+      ->add_option("--probe", options->probes,
+                   "Places inside whose displacement and stress are to be known; those that the "
+                   "model was precomputed with stay known without")
+      ->type_name("X Y Z ...");
   command->footer(
       "  palpate precompute kidney.vtp model.vtp --support-columns\n"
       "  palpate foundation model.vtp soft.vtp --stiffness 2e6 --shear 5e5");
@@ -90,12 +96,16 @@ void addFoundation(CLI::App& program) {
       throw std::invalid_argument("--shear must be at least 0 Pa/m");
     if (command->count("--shear") > 0 && command->count("--stiffness") == 0)
       throw std::invalid_argument("--shear goes with --stiffness: give that, too");
+    if (options->probes.size() % 3 != 0)
+      throw std::invalid_argument("--probe takes three coordinates a place");
     const auto surface = readSurface(options->input);
     addSprings(surface, options->springs);
     vtkNew<vtkElasticFoundation> filter;
     filter->SetInputData(surface);
     filter->SetNormalStiffness(options->stiffness);
     filter->SetShearStiffness(options->shear);
+    for (std::size_t i = 0; i < options->probes.size(); i += 3)
+      filter->AddProbe(options->probes[i], options->probes[i + 1], options->probes[i + 2]);
     const auto model = run(filter);
     writeSurface(model, options->output);
     for (const std::string& source : fieldStrings(model, "GreensFunctionSource"))

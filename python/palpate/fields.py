@@ -19,7 +19,8 @@ def surface_stress(pressed):
     Parameters
     ----------
     pressed : vtkPolyData
-        From `press` or `solve`, of one isotropic material, m triangles.
+        From `press` or `solve`, m triangles: of a solid of any materials, a cavity or a half-space, not
+        of shells, given matrices and what is on springs.
 
     Returns
     -------

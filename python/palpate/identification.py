@@ -262,7 +262,7 @@ def set_inputs(filter, surface, volume, measurements, length_unit, force_unit):
     if isinstance(surface, vtkUnstructuredGrid):
         if volume is not None:
             raise Error("tetrahedra in place of a surface go without volume")
-        surface, volume = boundary_of(surface), surface
+        surface, volume = boundary_of(surface, None)[0], surface
     if volume is not None:
         if not isinstance(volume, vtkUnstructuredGrid):
             raise Error(f"volume must be a vtkUnstructuredGrid, not {type(volume).__name__}")

@@ -5,7 +5,7 @@
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .arguments import number, numbers, positive, progress_callback, surface_of, vector
+from .arguments import listed, number, numbers, positive, progress_callback, surface_of, vector, vectors
 from .arrays import as_vtk
 from .errors import Error, run
 from .PalpateElastostatics import vtkBodyForce, vtkElasticFoundation
@@ -22,8 +22,8 @@ def gravity(model, density=None, acceleration=(0, 0, -9.81)):
     ----------
     model : vtkPolyData
         From `precompute`: of boundary elements with the Green's functions of all free vertices (and
-        `patch_columns` where edges are sharp), of finite elements, or a shell; or one of the latter two
-        whose support rests on a `foundation`.
+        `patch_columns` where edges are sharp), of finite elements, or a shell; or one of the latter two,
+        or an unsupported one, on a `foundation`.
     density : float, optional
         In the mean over the volume, kg/m^3. None takes the model's, which volume meshes with the cell
         array `Density` have.
@@ -58,7 +58,7 @@ def gravity(model, density=None, acceleration=(0, 0, -9.81)):
     return run(algorithm)
 
 
-def foundation(model, normal=0.0, shear=None, springs=None, *, progress=None):
+def foundation(model, normal=0.0, shear=None, springs=None, *, probes=None, progress=None):
     """Put a model on springs: an elastic foundation in place of its support, and single springs.
 
     Parameters
@@ -73,6 +73,10 @@ def foundation(model, normal=0.0, shear=None, springs=None, *, progress=None):
     springs : array_like of float, optional
         To ground, N/m: n values, the same in all directions, or n by 3 by 3 symmetric blocks; fixed
         vertices without any stay fixed. None takes the point array `SpringStiffness`, if there is one.
+    probes : array_like, optional
+        k by 3 places inside, m, whose fields are to be known under any contact: any of a body of one
+        isotropic material, else some of those that the model was precomputed with, which stay known
+        without.
     progress : callable or bool, optional
         As in `precompute`.
 
@@ -118,4 +122,8 @@ def foundation(model, normal=0.0, shear=None, springs=None, *, progress=None):
         if not number(shear, "shear") >= 0:
             raise Error(f"shear must be at least 0, not {shear}")
         algorithm.SetShearStiffness(number(shear, "shear"))
+    if probes is not None:
+        places = listed(probes, "probes")
+        for place in vectors(places, len(places), "probes"):
+            algorithm.AddProbe(*place)
     return run(algorithm, progress_callback(progress))

@@ -38,6 +38,7 @@ from .PalpateElastostatics import (
 from .surfaces import remesh
 
 FIXED = "PrecomputeFixed"  # carries an argument to a filter
+GRID_POINT = "PrecomputeGridPoint"
 THICKNESS = "Thickness"
 
 __all__ = ["precompute"]
@@ -65,7 +66,8 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
     poisson : float, optional
         Poisson's ratio in (-1, 0.5]. None takes the surface's field data.
     fixed : array_like of bool, optional
-        n values, where the body is held. None takes the surface's point array `BoundaryType`.
+        n values, where the body is held, or of a grid one a point. None takes the surface's point array
+        `BoundaryType`.
     method : {"bem", "fem", "halfspace", "shell"}
         Boundary elements; finite elements in tetrahedra (`columns`, `reciprocal`, `smooth_angle`,
         `patch_columns`, `progress`, `volume`, `element`, `cell_size` and `probes` go with it); the half-space below a flat
@@ -177,7 +179,7 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
     if isinstance(surface, vtkUnstructuredGrid):
         if method != "fem" or volume is not None:
             raise Error("tetrahedra in place of a surface go with method='fem', and without volume")
-        surface, volume = boundary_of(surface), surface
+        surface, fixed, volume = *boundary_of(surface, fixed), surface
     if domain == "unsupported" and fixed is not None:
         raise Error("domain='unsupported' is of bodies that nothing holds: leave fixed out")
     settings = dict(
@@ -249,11 +251,19 @@ def computed(greens, progress, stacklevel=3):
     return model
 
 
-def boundary_of(grid):
-    """The surface of a grid's tetrahedra."""
+def boundary_of(grid, fixed):
+    """The surface of a grid's tetrahedra, and what is fixed of it, if it is told by the grid's points."""
+    numbered = vtkUnstructuredGrid()
+    numbered.ShallowCopy(grid)
+    numbered.GetPointData().AddArray(as_ids(range(grid.GetNumberOfPoints()), GRID_POINT))
     boundary = vtkSolidBoundary()
-    boundary.SetInputData(grid)
-    return run(boundary)
+    boundary.SetInputData(numbered)
+    surface = run(boundary)
+    points = array(surface, GRID_POINT)
+    if np.shape(fixed) == (grid.GetNumberOfPoints(),):
+        fixed = np.asarray(fixed)[points]
+    surface.GetPointData().RemoveArray(GRID_POINT)
+    return surface, fixed
 
 
 METHODS_OF = {

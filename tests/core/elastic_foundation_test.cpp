@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "bem/interior_probes.h"
 #include "contact/capacitance_matrix.h"
 #include "greens/gravity.h"
 #include "support/problems.h"
@@ -192,8 +193,7 @@ TEST(ElasticFoundation, KeepsTheProbesOfItsBody) {
     const auto greens = onElasticFoundation(*firm, bar.model, springs).greens.take();
     const auto stiffer = greens->withYoungsModulus(3 * kModulus);  // springs and all
     // p = stress + onTop u(height), where u(z) = stress (1 / normal + z / E).
-    const double stress =
-        1 / (1 + (isHeldAbove ? onTop * (1 / normal + height / kModulus) : 0));
+    const double stress = 1 / (1 + (isHeldAbove ? onTop * (1 / normal + height / kModulus) : 0));
     for (const auto& [served, scale] : {std::pair(greens, 1.), std::pair(stiffer, 3.)}) {
       const ProbeRows& rows = *served->info().probes;
       ProbeValues values = ProbeValues::Zero();
@@ -262,6 +262,110 @@ TEST(ElasticFoundation, HoldsAnUnsupportedBodyAsItHoldsAReleasedOne) {
   }
   EXPECT_LT(differences[1], 0.02);
   EXPECT_LT(differences[1], differences[0]);
+}
+
+/// Springs' forces and their moments about the origin.
+Eigen::Matrix<double, 6, 1> resultantOf(const SurfaceMesh& mesh, const Eigen::Matrix3Xd& springs,
+                                        const Eigen::Matrix3Xd& displacement) {
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int v = 0; v < mesh.vertexCount(); ++v) {
+    const Eigen::Vector3d force = springs.middleCols<3>(3 * v) * displacement.col(v);
+    const Eigen::Vector3d place = mesh.points().col(v);
+    sum += (Eigen::Matrix<double, 6, 1>() << force, place.cross(force)).finished();
+  }
+  return sum;
+}
+
+TEST(ElasticFoundation, BearsTheWeightOfAnUnsupportedBodyOfTwoDensities) {
+  // The lower half of a bar is three times as dense as the upper: its middle is at 5/8 of 2 / 2.
+  const Eigen::Vector3d size(1, 1, 2), weight(0.2, -0.1, -0.7), probe(0.4, 0.6, 0.9);
+  const Eigen::Vector3d middle(0.5, 0.5, (1.5 * 0.5 + 0.5 * 1.5) / 2);
+  double differences[2], inside[2];
+  for (int level = 0; level < 2; ++level) {
+    const int n = level ? 4 : 2;
+    const TetrahedralMesh mesh = kuhnBox(size, {n, n, 2 * n}).mesh();
+    Eigen::VectorXd densities(mesh.cellCount());
+    for (int cell = 0; cell < mesh.cellCount(); ++cell)
+      densities[cell] = mesh.points()(2, mesh.tetrahedra().col(cell)).mean() < 1 ? 3 : 1;
+    std::shared_ptr<const GreensFunctions> founded[2];
+    const ElasticModel held = makeModel(boundaryOf(mesh), onBase, kModulus, 0.3);
+    const Eigen::Matrix3Xd springs =
+        foundationSprings(held.mesh(), held.conditions().fixedNodes(), 4, 1);
+    Eigen::Matrix3Xd sunk[2];
+    ProbeValues values[2];
+    for (const bool isLoose : {false, true}) {
+      const ElasticModel model = isLoose ? makeModel(
+                                               boundaryOf(mesh), [](const auto&) { return false; },
+                                               kModulus, 0.3, 30, Domain::Unsupported)
+                                         : held;
+      const SolidBody body(model.mesh(), mesh, {Elasticity(Material(kModulus, 0.3))}, {},
+                           densities);
+      FiniteElementOptions options;
+      if (!isLoose) options = allColumns(model);
+      options.probes = probe;
+      const auto greens = computeFiniteElementGreensFunctions(model, body, options).take();
+      founded[isLoose] = onElasticFoundation(*greens, model, springs).greens.take();
+      sunk[isLoose] =
+          gravityDisplacement(*founded[isLoose], model.mesh(), model.smoothPatches(), weight);
+      values[isLoose].setZero();
+      for (int v = 0; v < model.mesh().vertexCount(); ++v)
+        if (model.mesh().points()(2, v) > 1.9)
+          founded[isLoose]->info().probes->accumulate(0, v, Eigen::Vector3d(0.3, 0, -1),
+                                                      values[isLoose]);
+      if (isLoose) {
+        EXPECT_TRUE(isRefused(
+            [&] { gravityDisplacement(*greens, model.mesh(), model.smoothPatches(), weight); },
+            "falls freely"));
+      }
+    }
+    const Eigen::Matrix<double, 6, 1> borne = resultantOf(held.mesh(), springs, sunk[1]);
+    EXPECT_LT((borne.head<3>() - 2 * weight).norm(), 1e-9);
+    EXPECT_LT((borne.tail<3>() - middle.cross(2 * weight)).norm(), 1e-9);
+    differences[level] = (sunk[1] - sunk[0]).norm() / sunk[0].norm();
+    inside[level] = (values[1] - values[0]).norm() / values[0].norm();
+  }
+  // What differs is how each discretisation has the support's edge: of first order.
+  EXPECT_LT(differences[1], 0.04);
+  EXPECT_LT(differences[1], 0.7 * differences[0]);
+  EXPECT_LT(inside[1], 0.05);
+  EXPECT_LT(inside[1], 0.7 * inside[0]);
+}
+
+TEST(ElasticFoundation, OfAnUnsupportedBallByItsSurfaceAloneBearsItsWeightAndIsSeenInside) {
+  const ElasticModel loose = makeModel(
+      icosphere(3), [](const auto&) { return false; }, kModulus, 0.3, 30, Domain::Unsupported);
+  const SurfaceMesh& mesh = loose.mesh();
+  const auto greens = computeBoundaryElementGreensFunctions(loose).take();
+  const Eigen::Vector3d weight(0.1, 0.2, -0.5), probe(0.1, -0.2, 0.3);
+  std::vector<int> below;
+  for (int v = 0; v < mesh.vertexCount(); ++v)
+    if (cap(mesh.points().col(v))) below.push_back(v);
+  const Eigen::Matrix3Xd springs = foundationSprings(mesh, below, 3, 1);
+  const auto probes = std::make_shared<const ProbeRows>(probeRows(*greens, loose, probe));
+  const auto founded = onElasticFoundation(*greens, loose, springs, probes).greens.take();
+  const Eigen::Matrix3Xd sunk = gravityDisplacement(*founded, mesh, loose.smoothPatches(), weight);
+  double volume = 0;
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    volume += mesh.triangleAreas()[f] / 3 *
+              mesh.triangleNormals().col(f).dot(mesh.points().col(mesh.triangles()(0, f)));
+  const Eigen::Matrix<double, 6, 1> borne = resultantOf(mesh, springs, sunk);
+  EXPECT_LT((borne.head<3>() - volume * weight).norm(), 1e-9 * volume);
+  EXPECT_LT(borne.tail<3>().norm(), 1e-3 * volume);  // loads of triangles are shared to corners
+  // Under no force but its springs', moved rigidly, and under a push that the springs bear.
+  Eigen::Matrix3Xd given = Eigen::Matrix3Xd::Zero(3, mesh.vertexCount());
+  for (int v = 0; v < given.cols(); ++v)
+    if (mesh.points()(2, v) > 0.7) given.col(v) = Eigen::Vector3d(0.3, 0, -1);
+  const Eigen::Matrix3Xd u = solveReferenceProblem(*founded, given);
+  Eigen::Matrix3Xd traction = given;
+  for (int v : below)
+    traction.col(v) -= springs.middleCols<3>(3 * v) * u.col(v) / mesh.vertexAreas()[v];
+  const ProbedField expected = InteriorProbes(loose, probe).evaluate(u, traction).front();
+  ProbeValues values = ProbeValues::Zero();
+  for (int v = 0; v < given.cols(); ++v)
+    founded->info().probes->accumulate(0, v, given.col(v), values);
+  const ProbedField found = fieldOf(values, founded->info().probes->stiffness(0));
+  EXPECT_LT((found.displacement - expected.displacement).norm(), 1e-9 * u.norm());
+  EXPECT_LT((found.stress - expected.stress).norm(), 1e-7 * expected.stress.norm());
 }
 
 TEST(ElasticFoundation, RefusesWhatDoesNotHold) {

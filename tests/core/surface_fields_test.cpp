@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "greens/probe_rows.h"
 #include "support/problems.h"
 #include "support/refusals.h"
 
@@ -59,6 +60,40 @@ TEST_P(SurfaceFieldsOf, AUniformStateAreExact) {
     EXPECT_LT((found.stress[f] - stress).norm(), 1e-12) << f;
   }
   EXPECT_EQ(seen, 6 * 18);
+  const std::vector<Elasticity> same(mesh.triangleCount(), Elasticity(model.material()));
+  const SurfaceFields again = surfaceFields(model, same, displacement, traction);
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    EXPECT_LT((again.gradient[f] - found.gradient[f]).norm(), 1e-12) << f;
+    EXPECT_LT((again.stress[f] - found.stress[f]).norm(), 1e-12) << f;
+  }
+}
+
+TEST(SurfaceFields, OfFibresAcrossTheAxesAreExactInAUniformState) {
+  const ElasticModel model = makeModel(box({1, 1, 1}, {4, 4, 4}), base, 1, 0.3);
+  const SurfaceMesh& mesh = model.mesh();
+  const Elasticity fibres = Elasticity::transverselyIsotropic({1, 2, -1}, 9, 0.25, 2, 0.4, 1.5);
+  Matrix3d gradient;
+  gradient << 0.01, -0.03, 0.02, 0.05, 0.02, 0.01, 0.04, -0.02, -0.03;
+  ProbeValues values = ProbeValues::Zero();
+  values.segment<9>(3) = gradient.reshaped<Eigen::RowMajor>();
+  const Matrix3d stress = fieldOf(values, fibres.stiffness()).stress;
+  Matrix3Xd traction = Matrix3Xd::Zero(3, mesh.vertexCount());
+  for (int f = 0; f < mesh.triangleCount(); ++f)
+    if (isInsideASide(mesh, f))
+      for (int corner : mesh.triangles().col(f))
+        traction.col(corner) = stress * mesh.triangleNormals().col(f);
+  const std::vector<Elasticity> materials(mesh.triangleCount(), fibres);
+  const SurfaceFields found = surfaceFields(model, materials, gradient * mesh.points(), traction);
+  int seen = 0;
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    if (!isInsideASide(mesh, f)) continue;
+    ++seen;
+    EXPECT_LT((found.gradient[f] - gradient).norm(), 1e-12) << f;
+    EXPECT_LT((found.stress[f] - stress).norm(), 1e-12) << f;
+  }
+  EXPECT_GT(seen, 0);
+  EXPECT_TRUE(isRefused([&] { surfaceFields(model, {fibres}, traction, traction); },
+                        "materials of 1 triangles, the surface has 192"));
 }
 
 INSTANTIATE_TEST_SUITE_P(PoissonRatios, SurfaceFieldsOf,

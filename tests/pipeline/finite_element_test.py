@@ -8,6 +8,7 @@ import unittest
 import warnings
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TRIANGLE
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
@@ -18,6 +19,12 @@ from support.surfaces import points_of, run, triangles_of
 warnings.simplefilter("ignore", palpate.ModelWarning)  # the surface's triangles are not all kept
 
 YOUNG, POISSON = 8e3, 0.3
+
+
+def named(values, name):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    return array
 
 
 def surface_of(grid):
@@ -70,6 +77,69 @@ class Package(unittest.TestCase):
         set_cells(grid, TransverselyIsotropicModuli=[[9e4, 0, 1e4, 0, 5e3]] * cells,
                   FibreDirection=[[0, 0, 3]] * cells)
         self.assertAlmostEqual(stretch(model_of(grid, patch_columns=True, reciprocal=False)) * 9e4 / 2, 1, delta=1e-9)
+
+    def test_planes_of_symmetry_hold_what_guides_hold(self):
+        # A bar that cannot get wider: u = p L / M, M = lambda + 2 G, though nu is not 0.
+        grid = bar((3, 3, 6))
+        surface = surface_of(grid)
+        points = points_of(surface)
+        fixed = points[:, 2] < 1e-9
+        held = np.zeros((len(points), 3), dtype=np.uint8)
+        for k in range(2):
+            held[:, k] = ((points[:, k] < 1e-9) | (points[:, k] > 1 - 1e-9)) & ~fixed
+        surface.GetPointData().AddArray(named(held, "HeldComponents"))
+        pose = {"fixed": fixed, "volume": grid, "patch_columns": True, "reciprocal": False}
+        model = palpate.precompute(surface, YOUNG, POISSON, method="fem", **pose)
+        modulus = YOUNG * (1 - POISSON) / (1 + POISSON) / (1 - 2 * POISSON)
+        self.assertAlmostEqual(stretch(model) * modulus / 2, 1, delta=1e-6)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "model.vtp")
+            palpate.write(model, path)
+            self.assertAlmostEqual(stretch(palpate.read(path)) / stretch(model), 1, delta=1e-12)
+        surface.GetPointData().AddArray(named(0 * held, "HeldComponents"))
+        free = palpate.precompute(surface, YOUNG, POISSON, method="fem", **pose)
+        self.assertGreater(stretch(free), 1.1 * stretch(model))
+        changed = model.NewInstance()
+        changed.DeepCopy(model)
+        changed.GetPointData().GetArray("HeldComponents").SetTuple(points[:, 2].argmax(), (1, 0, 1))
+        for what, sentence in (
+                (lambda: palpate.press(changed, (0.5, 0.5, 2), force=(0, 0, 1)), "stale"),
+                (lambda: palpate.precompute(model, YOUNG, POISSON), "choose finite elements"),
+                (lambda: palpate.surface_stress(palpate.press(model, (0.5, 0.5, 2), force=(0, 0, 1))),
+                 "single components are held")):
+            with self.assertRaises(palpate.Error) as raised:
+                what()
+            self.assertIn(sentence, str(raised.exception))
+        for wrong, sentence in ((np.full((len(points), 3), 2), "must be 0 or 1, not 2"),
+                                (held[:, :2], "3 components, or 6"),
+                                (np.ones((len(points), 3)), "but all of it is held: fix it")):
+            surface.GetPointData().AddArray(named(wrong, "HeldComponents"))
+            with self.assertRaises(palpate.Error) as raised:
+                palpate.precompute(surface, YOUNG, POISSON, method="fem", **pose)
+            self.assertIn(sentence, str(raised.exception))
+
+    def test_a_grid_tells_its_material_and_its_points_what_is_fixed(self):
+        grid = bar((2, 2, 4))
+        soft = centres(grid)[:, 2] > 1
+        arrays = {"YoungsModulus": np.where(soft, 1e3, 3e3), "PoissonRatio": np.where(soft, 0.1, 0.2)}
+        set_cells(grid, **arrays)
+        fixed = np.array([grid.GetPoint(i)[2] < 1e-9 for i in range(grid.GetNumberOfPoints())])
+        self.assertNotEqual(len(fixed), surface_of(grid).GetNumberOfPoints())
+        model = palpate.precompute(grid, fixed=fixed, method="fem", estimate_error=False)
+        self.assertAlmostEqual(palpate.array(model, "YoungsModulus")[0], 2e3)
+        self.assertAlmostEqual(palpate.array(model, "PoissonRatio")[0], 0.15)
+        given = palpate.precompute(grid, 5e3, 0.3, fixed=fixed, method="fem", estimate_error=False)
+        np.testing.assert_allclose(palpate.greens_functions(model), palpate.greens_functions(given), rtol=1e-8,
+                                   atol=1e-12)  # the unit says nothing
+        shear, lame = YOUNG / 2 / (1 + POISSON), YOUNG * POISSON / (1 + POISSON) / (1 - 2 * POISSON)
+        full = np.diag([2 * shear] * 3 + [shear] * 3)
+        full[:3, :3] += lame
+        tensors = set_cells(bar((2, 2, 2)), ElasticityTensor=[full[np.triu_indices(6)]] * 48)
+        boundary = palpate.vtkSolidBoundary()
+        boundary.SetInputData(tensors)
+        boundary.Update()
+        self.assertAlmostEqual(palpate.array(boundary.GetOutput(), "YoungsModulus")[0] / YOUNG, 1)
+        self.assertAlmostEqual(palpate.array(boundary.GetOutput(), "PoissonRatio")[0], POISSON)
 
     def test_an_isotropic_tensor_is_the_isotropic_material(self):
         grid, with_tensor = bar((2, 2, 4)), bar((2, 2, 4))

@@ -131,6 +131,29 @@ class Foundation(Refusals):
         np.testing.assert_allclose(*pushed, atol=1e-12)
         np.testing.assert_allclose(springs @ pushed[0], (0, 0, -3), atol=1e-9)
 
+    def test_of_springs_bears_the_weight_of_what_nothing_else_holds(self):
+        surface = sphere()
+        springs = np.where(lower_cap(surface), 50.0, 0.0)
+        grid = bar((2, 2, 4))
+        set_cells(grid, Density=np.linspace(800, 1600, grid.GetNumberOfCells()))
+        corners = np.where(base_of(grid), 900.0, 0.0)
+        with tempfile.TemporaryDirectory() as folder:
+            for body, stiffness, settings, volume in (
+                    (surface, springs, {}, None), (grid, corners, {"method": "fem"}, 2)):
+                loose = palpate.precompute(body, YOUNG, 0.3, domain="unsupported", estimate_error=False,
+                                           **settings)
+                path = os.path.join(folder, "loose.vtp")
+                palpate.write(loose, path)
+                density = 1000 if volume is None else None
+                self.refused("falls freely", palpate.gravity, loose, density)
+                hung = palpate.gravity(palpate.foundation(palpate.read(path), springs=stiffness), density)
+                weight = (1000 * 4 / 3 * np.pi if volume is None
+                          else volume * palpate.array(loose, "Density")[0]) * 9.81
+                borne = stiffness @ palpate.array(hung, "Displacement")
+                # The sphere's is that of its triangles, which cut some of it off.
+                np.testing.assert_allclose(borne, (0, 0, -weight), rtol=0.05 if volume is None else 1e-9,
+                                           atol=1e-6 * weight)
+
     def test_that_makes_no_sense_is_refused(self):
         surface = sphere()
         firm = sphere_model()
@@ -174,6 +197,38 @@ class Probes(Refusals):
         np.testing.assert_allclose(ratio, (1e-4, 2e-5), rtol=1e-6)
         self.assertTrue((palpate.array(inside, "InsideMaterial") == 1).all())
         self.refused("no probe at (0.5, 0.5, 0.5)", palpate.probe, pushed, [(0.5, 0.5, 0.5)])
+
+    def test_stay_on_springs_and_follow_a_support_that_is_moved(self):
+        place = (0.45, 0.5, 0.6)
+        count = len(base_of(bar((2, 2, 4))))
+        model = self.model(probes=[place, (0.5, 0.55, 1.3)], columns=np.arange(count))
+        force = {"force": (0, 0, -50), "radius": 2}
+        firm, soft = (palpate.probe(palpate.press(m, (0.5, 0.5, 2), **force), [place])
+                      for m in (model, palpate.foundation(model, normal=1e3)))
+        np.testing.assert_allclose(palpate.array(soft, "Stress")[0, 2], palpate.array(firm, "Stress")[0, 2],
+                                   rtol=0.05)
+        sunk = (palpate.array(soft, "Displacement") - palpate.array(firm, "Displacement"))[0, 2]
+        self.assertAlmostEqual(sunk / (-50 / 1e3), 1, delta=0.05)
+        fixed = np.flatnonzero(palpate.array(model, "BoundaryType"))
+        lifted = palpate.solve(model, fixed, np.tile((0, 0.1, 0.2), (len(fixed), 1)))
+        inside = palpate.probe(lifted, [place])
+        np.testing.assert_allclose(palpate.array(inside, "Displacement"), [(0, 0.1, 0.2)], atol=1e-8)
+        self.assertLess(np.abs(palpate.array(inside, "Strain")).max(), 1e-8)
+
+    def test_are_chosen_where_one_material_is_put_on_springs(self):
+        place = (0.1, 0.0, 0.3)
+        surface = sphere()
+        firm = palpate.precompute(surface, YOUNG, 0.3, fixed=lower_cap(surface),
+                                  columns=np.arange(surface.GetNumberOfPoints()))
+        stiff = palpate.foundation(firm, normal=1e9, probes=[place])
+        soft = palpate.foundation(firm, normal=1e4)
+        pushes = [palpate.press(m, (0, 0, 1), force=(0, 0, -100), radius=0.5) for m in (firm, stiff, soft)]
+        stresses = [palpate.array(palpate.probe(p, [place]), "Stress") for p in pushes[:2]]
+        np.testing.assert_allclose(*stresses, rtol=1e-3, atol=1e-3 * np.abs(stresses[0]).max())
+        self.refused("foundation --probe", palpate.probe, pushes[2], [place])
+        self.refused("is not inside the material", palpate.foundation, firm, 1e4, probes=[(0, 0, 2)])
+        self.refused("no probe at (0.1, 0, 0.2)", palpate.foundation, self.model(probes=[(0.5, 0.5, 1)]),
+                     springs=np.ones(len(base_of(bar((2, 2, 4))))), probes=[(0.1, 0, 0.2)])
 
     def test_that_make_no_sense_are_refused(self):
         self.refused("is not inside the body", self.model, probes=[(0.5, 0.5, 3)])
@@ -227,8 +282,9 @@ class Unsupported(Refusals):
                      domain="unsupported", method="halfspace")
         loose = palpate.precompute(surface, YOUNG, 0.3, domain="unsupported")
         self.refused("falls freely", palpate.gravity, loose, 1000)
-        self.refused("unless these were put under", palpate.gravity,
-                     palpate.foundation(loose, springs=np.ones(162)), 1000)
+        edged = palpate.precompute(cube(), YOUNG, 0.3, domain="unsupported")
+        self.refused("without sharp edges", palpate.gravity,
+                     palpate.foundation(edged, springs=np.ones(edged.GetNumberOfPoints())), 1000)
 
 
 class Program(unittest.TestCase):

@@ -12,9 +12,16 @@ from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 import palpate
 from support.solids import bar, base_of, set_cells
-from support.surfaces import points_of, run, sphere, triangles_of
+from support.surfaces import points_of, polydata, run, sphere, triangles_of
 
 YOUNG, POISSON = 8e3, 0.3
+
+
+def solved_on(model, solved):
+    """A contact's displacements and tractions on a model."""
+    for name in ("Displacement", "Traction"):
+        model.GetPointData().AddArray(solved.GetPointData().GetArray(name))
+    return model
 
 
 def pressed_kidney(levels=2, **settings):
@@ -101,6 +108,67 @@ class SurfaceStress(unittest.TestCase):
         self.assertAlmostEqual(palpate.array(solved, "LargestDisplacementGradient")[0], 7 / YOUNG,
                                delta=1e-9)
 
+    def test_layers_bear_the_same_and_strain_as_they_are_stiff(self):
+        grid = bar((4, 4, 8))
+        heights = np.array([np.mean([grid.GetPoint(grid.GetCell(c).GetPointId(k))[2] for k in range(4)])
+                            for c in range(grid.GetNumberOfCells())])
+        set_cells(grid, YoungsModulus=np.where(heights > 1, 5e4, 1e4), PoissonRatio=np.zeros(len(heights)))
+        model = palpate.precompute(grid, 1.0, 0.0, method="fem", patch_columns=True, reciprocal=False,
+                                   fixed=base_of(grid))
+        points, corners = points_of(model), triangles_of(model)
+        tractions = np.zeros((len(corners), 3))
+        tractions[(points[corners][:, :, 2] > 2 - 1e-9).all(axis=1), 2] = 7
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "model.vtp")
+            palpate.write(model, path)
+            model = palpate.read(path)
+        heights = points[corners][:, :, 2]
+        sides = ((heights > 0.2) & (heights < 1.8)).all(axis=1)
+        expected = np.where(heights.mean(axis=1) > 1, 5e4, 1e4)[sides]
+        for unit in (1.0, 2.0):  # twice as stiff all over
+            model.GetFieldData().GetArray("YoungsModulus").SetValue(0, unit)
+            solved = palpate.surface_stress(palpate.solve(model, [], np.zeros((0, 3)),
+                                                          face_tractions=tractions))
+            np.testing.assert_allclose(tensors(solved, "Stress")[sides, 2, 2], 7, rtol=1e-8)
+            np.testing.assert_allclose(palpate.array(solved, "Strain")[sides, 2] * unit * expected, 7, rtol=1e-8)
+        model.GetFieldData().GetArray("SurfaceElasticity").SetTuple(0, np.full(22, -1.0))
+        with self.assertRaisesRegex(palpate.Error, "positive definite"):
+            palpate.surface_stress(solved_on(model, solved))
+
+    def test_what_nothing_holds_bears_what_balances(self):
+        grid = bar((4, 4, 8))
+        model = palpate.precompute(grid, YOUNG, 0.0, method="fem", domain="unsupported", estimate_error=False,
+                                   reciprocal=False)
+        points, areas = points_of(model), palpate.array(model, "VertexArea")
+        pull = np.zeros((len(points), 3))
+        pull[:, 2] = (np.where(points[:, 2] > 2 - 1e-9, 1.0, 0.0) - np.where(points[:, 2] < 1e-9, 1.0, 0.0))
+        force = areas[points[:, 2] > 2 - 1e-9].sum()
+        solved = palpate.solve(model, [], np.zeros((0, 3)), free_tractions=pull)
+        middle = (np.abs(points[triangles_of(model)][:, :, 2] - 1) < 0.3).all(axis=1)
+        surface = tensors(palpate.surface_stress(solved), "Stress")[middle, 2, 2]
+        inside = tensors(palpate.probe(solved, [(0.5, 0.5, 1.0)]), "Stress")[0]
+        # Loads of the ends' edges act on the sides, too: Saint-Venant leaves little of that here.
+        self.assertAlmostEqual(surface.mean() / force, 1, delta=0.05)
+        self.assertAlmostEqual(inside[2, 2] / force, 1, delta=0.05)
+
+    def test_a_half_space_bears_what_loves_solution_says(self):
+        # Under the middle of an even pressure p on a disc: -p across, -p (1 + 2 nu) / 2 along.
+        n = 24
+        side = np.linspace(-1, 1, n + 1)
+        points = np.array([(x, y, 0) for y in side for x in side])
+        corners = [(i + (n + 1) * j, i + 1 + (n + 1) * j, i + 1 + (n + 1) * (j + 1), i + (n + 1) * (j + 1))
+                   for j in range(n) for i in range(n)]
+        triangles = np.array([t for a, b, c, d in corners for t in ((a, b, c), (a, c, d))])
+        model = palpate.precompute(polydata(points, triangles), YOUNG, POISSON, method="halfspace",
+                                   reciprocal=False)
+        loaded = np.hypot(points[:, 0], points[:, 1]) < 0.52
+        solved = palpate.solve(model, [], np.zeros((0, 3)), free_tractions=np.outer(loaded, (0, 0, -7.0)))
+        stressed = palpate.surface_stress(solved)
+        middle = (np.abs(points[triangles]) < 0.1).all(axis=(1, 2))
+        stress = tensors(stressed, "Stress")[middle].mean(axis=0)
+        np.testing.assert_allclose(np.diag(stress), -7 * np.array((0.5 + POISSON, 0.5 + POISSON, 1)), rtol=0.03)
+        self.assertLess(abs(stress[0, 1]), 0.02 * 7)
+
     def test_another_contact_takes_the_stresses_away(self):
         stressed = palpate.surface_stress(pressed_kidney(1))
         again = palpate.press(stressed, point=(0, 0, 0.03), force=(0, 0, -0.1), radius=0.01)
@@ -116,9 +184,12 @@ class SurfaceStress(unittest.TestCase):
         set_cells(grid, YoungsModulus=np.linspace(1, 2, cells), PoissonRatio=np.full(cells, 0.3))
         model = palpate.precompute(grid, YOUNG, 0.3, method="fem", fixed=base_of(grid))
         pressed = palpate.press(model, point=(0.5, 0.5, 2), force=(0, 0, -1), radius=0.5)
-        for refused in (palpate.surface_stress, lambda data: palpate.probe(data, [(0.5, 0.5, 1)])):
-            with self.assertRaisesRegex(palpate.Error, "bodies of one isotropic material"):
-                refused(pressed)
+        with self.assertRaisesRegex(palpate.Error, "bodies of one isotropic material.*--method fem --probe"):
+            palpate.probe(pressed, [(0.5, 0.5, 1)])
+        springs = np.where(base_of(grid), 0.0, 1.0)
+        with self.assertRaisesRegex(palpate.Error, "on springs"):
+            palpate.surface_stress(palpate.press(palpate.foundation(model, springs=springs), point=(0.5, 0.5, 2),
+                                                 force=(0, 0, -1), radius=0.5))
 
 
 class Program(unittest.TestCase):

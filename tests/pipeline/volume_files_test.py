@@ -155,9 +155,10 @@ class VolumeFiles(unittest.TestCase):
             solved = palpate.solve(model, [], np.zeros((0, 3)), face_tractions=tractions)
             self.assertAlmostEqual(palpate.array(solved, "Displacement")[top, 2].mean() * along / 2, 1,
                                    delta=1e-9)
+        fixed = base_of(grid)
         set_cells(grid, MaterialAxes=[(1, 0, 0, 3, 0, 0)] * cells)
         with self.assertRaisesRegex(palpate.Error, "cell 0 of the volume mesh: its MaterialAxes"):
-            palpate.precompute(grid, YOUNG, POISSON, fixed=base_of(grid), method="fem")
+            palpate.precompute(grid, YOUNG, POISSON, fixed=fixed, method="fem")
 
 
 if __name__ == "__main__":

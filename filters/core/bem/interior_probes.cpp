@@ -9,6 +9,7 @@
 
 #include "bem/probe_kernels.h"
 #include "bem/triangle_quadrature.h"
+#include "greens/rigid_motions.h"
 #include "greens/support_tractions.h"
 #include "mesh/surface_locator.h"
 #include "parallel.h"
@@ -37,7 +38,8 @@ constexpr double kNearest = 1e-4;  // edges: subdivision goes on until pieces ar
 class ProbePlaces {
  public:
   explicit ProbePlaces(const ElasticModel& model) : model_(model), locator_(model.sharedMesh()) {
-    if (model.domain() != Domain::Interior && model.domain() != Domain::Exterior)
+    if (model.domain() != Domain::Interior && model.domain() != Domain::Exterior &&
+        model.domain() != Domain::Unsupported)
       refuse("points inside are probed in bodies and around cavities, in no other domain");
   }
   /// From the surface, in mean edges.
@@ -46,7 +48,7 @@ class ProbePlaces {
            model_.mesh().meanEdgeLength();
   }
   bool isInside(const Eigen::Vector3d& point) const {
-    return locator_.isInside(point) == (model_.domain() == Domain::Interior);
+    return locator_.isInside(point) == (model_.domain() != Domain::Exterior);
   }
 
  private:
@@ -191,25 +193,35 @@ ProbeRows probeRows(const GreensFunctions& greens, const ElasticModel& model,
   const InteriorProbes probes(model, points, progress.part(0, 0.5).callback(), threads);
   const int count = greens.nodeCount();
   Eigen::VectorXi all = Eigen::VectorXi::LinSpaced(count, 0, count - 1);
-  std::vector<int> loaded;  // on which a force can act
+  std::vector<int> given;  // on which a force can act, or whose displacement can be given
   for (int node = 0; node < count; ++node)
-    if (!greens.isFixed(node) && greens.hasColumn(node)) loaded.push_back(node);
+    if (greens.hasColumn(node)) given.push_back(node);
+  // Loads of what nothing holds are balanced: see removeRigidMotions.
+  Eigen::MatrixXd motions, balance;
+  if (model.domain() == Domain::Unsupported) {
+    motions = rigidMotionsOfBodies(model.mesh());
+    balance = meanRigidMotion(greens.info().vertexAreas, motions);
+  }
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(13 * points.cols(), 3 * count);
-  for (std::size_t first = 0; first < loaded.size(); first += atOnce) {
-    progress.report(0.5 + 0.5 * double(first) / loaded.size(), "probe");
-    const auto now = static_cast<int>(std::min<std::size_t>(atOnce, loaded.size() - first));
+  for (std::size_t first = 0; first < given.size(); first += atOnce) {
+    progress.report(0.5 + 0.5 * double(first) / given.size(), "probe");
+    const auto now = static_cast<int>(std::min<std::size_t>(atOnce, given.size() - first));
     Eigen::MatrixXd displacement(3 * count, 3 * now), traction = displacement;
-    greens.gather(all, Eigen::Map<const Eigen::VectorXi>(&loaded[first], now), displacement.data());
+    greens.gather(all, Eigen::Map<const Eigen::VectorXi>(&given[first], now), displacement.data());
     traction.setZero();
     for (int node = 0; node < count; ++node)
       if (greens.isFixed(node)) {
         traction.middleRows<3>(3 * node) = displacement.middleRows<3>(3 * node);
         displacement.middleRows<3>(3 * node).setZero();
       }
-    for (int i = 0; i < now; ++i) traction.block<3, 3>(3 * loaded[first + i], 3 * i).setIdentity();
+    for (int i = 0; i < now; ++i)
+      (greens.isFixed(given[first + i]) ? displacement : traction)
+          .block<3, 3>(3 * given[first + i], 3 * i)
+          .setIdentity();
+    if (motions.cols() > 0) traction -= motions * (balance * traction).eval();
     const Eigen::MatrixXd values = probes.values(displacement, traction);
     for (int i = 0; i < now; ++i)
-      rows.middleCols<3>(3 * loaded[first + i]) = values.middleCols<3>(3 * i);
+      rows.middleCols<3>(3 * given[first + i]) = values.middleCols<3>(3 * i);
   }
   return {points, std::move(rows),
           std::vector<Matrix6d>(points.cols(), shearStiffness(model.material().shearModulus()))};

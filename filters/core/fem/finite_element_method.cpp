@@ -12,6 +12,7 @@
 #include "fem/surface_response.h"
 #include "greens/error_estimate.h"
 #include "greens/reciprocity.h"
+#include "greens/replaced_rows.h"
 #include "greens/rigid_motions.h"
 #include "mesh/surface_locator.h"
 #include "sentence.h"
@@ -48,7 +49,7 @@ std::vector<WantedColumn> wantedColumns(const GreensFunctionsInfo& info,
     for (std::size_t h = 0; h < hats.size(); ++h)
       if (hats[h].vertex == column.node && hats[h].patch == column.patch)
         wanted.push_back({WantedColumn::Traction, static_cast<int>(h)});
-  if (info.domain == Domain::Interior) wanted.push_back({WantedColumn::Load, 0});
+  wanted.push_back({WantedColumn::Load, 0});
   return wanted;
 }
 
@@ -80,14 +81,6 @@ void requireHeldComponents(const HeldDisplacements& held, const ElasticModel& mo
     if (held.col(v).all()) refuse("vertex ", v, " is free, but all of it is held: fix it");
 }
 
-/// What a model with held components is told from others by.
-std::uint64_t fingerprintWith(const HeldDisplacements& held, std::uint64_t ofModel) {
-  return Fingerprint()
-      .add(&ofModel, sizeof ofModel)
-      .add(held.data(), sizeof(bool) * held.size())
-      .value();
-}
-
 /// Rows of probes in the model's units, of the nodes whose columns there are.
 std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Matrix3Xd& points,
                                           const GreensFunctionsInfo& info,
@@ -105,6 +98,34 @@ std::shared_ptr<const ProbeRows> probesOf(const SolidBody& body, const Eigen::Ma
     stiffnesses.push_back(body.material(probe.cell).stiffness());
   }
   return std::make_shared<const ProbeRows>(points, std::move(rows), std::move(stiffnesses));
+}
+
+/// From bodies that springs hold to those that nothing does, as removeRigidMotions does: Green's
+/// functions, weight and probes.
+void loosen(const ElasticModel& model, const fem::SurfaceResponse& response,
+            ComputedGreensFunctions& result) {
+  GreensFunctionsInfo& info = result.info;
+  const Eigen::Index size = 3 * info.vertexAreas.size();
+  const Eigen::Map<const Eigen::MatrixXd> held(result.matrix.data(), size, size);
+  const Eigen::MatrixXd &displaced = response.displacedMotions, &loaded = response.loadedMotions;
+  const Eigen::MatrixXd mean = meanRigidMotion(info.vertexAreas, displaced),
+                        balance = meanRigidMotion(info.vertexAreas, loaded);
+  Eigen::MatrixXd weighted = loaded;  // T^T A, transposed
+  for (int v = 0; v < info.vertexAreas.size(); ++v)
+    weighted.middleRows<3>(3 * v) *= info.vertexAreas[v];
+  const Eigen::MatrixXd resultants = response.weightResultants;
+  Eigen::MatrixXd sunk = info.weightResponse;
+  sunk -= held * (loaded * (weighted.transpose() * loaded).ldlt().solve(resultants));
+  sunk -= displaced * (mean * sunk).eval();
+  info.weightResponse.resize(size + resultants.rows(), 3);
+  info.weightResponse << sunk, resultants;
+  if (const auto probes = info.probes) {
+    Eigen::MatrixXd rows = probes->rows();
+    rows -= rigidMotionsInside(model.sharedMesh(), probes->points()) * (mean * held);
+    rows -= (rows * loaded).eval() * balance;
+    info.probes = withRows(*probes, std::move(rows));
+  }
+  removeRigidMotions(result.matrix.data(), info.vertexAreas, displaced, loaded);
 }
 
 /// The same method for another mesh, filled with the same material.
@@ -129,6 +150,13 @@ EstimatedMethod estimatedMethod(const FiniteElementOptions& options, const Elast
 
 }  // namespace
 
+std::uint64_t heldFingerprint(const HeldDisplacements& held, std::uint64_t ofModel) {
+  return Fingerprint()
+      .add(&ofModel, sizeof ofModel)
+      .add(held.data(), sizeof(bool) * held.size())
+      .value();
+}
+
 ElasticModel onBoundary(const ElasticModel& model, const Tetrahedralization& filled) {
   if (filled.newBoundaryPoints > 0)
     throw std::runtime_error("filling the surface took new vertices on it");
@@ -152,11 +180,8 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
                                                             const ProgressCallback& callback) {
   if (model.domain() != Domain::Interior && model.domain() != Domain::Unsupported)
     throw std::invalid_argument("finite elements fill the inside of a surface, no other domain");
-  if (model.domain() == Domain::Unsupported) {
+  if (model.domain() == Domain::Unsupported)
     requireAllColumns(options.columns, options.patchColumns);
-    if (options.probes.cols() > 0)
-      throw std::invalid_argument("an unsupported body has no probes: leave them out");
-  }
   requireHeldComponents(options.held, model);
   const bool isEstimated =
       options.estimateError && body.materialCount() == 1 && options.held.cols() == 0;
@@ -165,7 +190,7 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   ComputedGreensFunctions result;
   GreensFunctionsInfo& info = result.info;
   info = infoOf(model, options.columns);
-  if (options.held.any()) info.fingerprint = fingerprintWith(options.held, info.fingerprint);
+  if (options.held.any()) info.fingerprint = heldFingerprint(options.held, info.fingerprint);
   // What holds single components bears tractions that nobody is told, without which the surface's
   // solution says nothing of the inside.
   info.homogeneous = body.isOf(model.material()) && !options.held.any();
@@ -193,7 +218,7 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
       fem::surfaceResponse(std::move(system), model, wanted, shares, progress.part(0.1, 0.95));
   std::vector<double> perGiven = perGivenOfNodes(info, length, stiffness);
   perGiven.resize(perGiven.size() + info.patchColumns.size(), 1 / stiffness);
-  if (info.domain == Domain::Interior) perGiven.push_back(length / stiffness);  // of the weight
+  perGiven.push_back(length / stiffness);  // of the weight
   if (options.probes.cols() > 0)
     info.probes =
         probesOf(body, options.probes, info, response.probes, perGiven, length, stiffness);
@@ -207,10 +232,11 @@ ComputedGreensFunctions computeFiniteElementGreensFunctions(const ElasticModel& 
   if (!info.patchColumns.empty())
     result.patchMatrix =
         taken(response.columns.middleCols(ownColumns, 3 * info.patchColumns.size()));
-  if (info.domain == Domain::Interior) info.weightResponse = response.columns.rightCols<3>();
-  if (info.domain == Domain::Unsupported)
-    removeRigidMotions(result.matrix.data(), info.vertexAreas, response.displacedMotions,
-                       response.loadedMotions);
+  info.weightResponse = response.columns.rightCols<3>();
+  if (info.domain == Domain::Unsupported) {
+    response.weightResultants *= length * length * length;
+    loosen(model, response, result);
+  }
   info.diagnostics.reciprocityDefect =
       makeReciprocal(result.matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
                      options.reciprocal);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fem/solid_body.h"
@@ -34,6 +35,9 @@ struct FiniteElementOptions {
   /// for bodies of several materials and where single components are held.
   bool estimateError = false;
 };
+
+/// What a model with held components is told from others by, from that of the model without any.
+std::uint64_t heldFingerprint(const HeldDisplacements& held, std::uint64_t ofModel);
 
 /// Computes the discrete Green's functions of a solid body by finite elements: displacements linear
 /// or quadratic in tetrahedra, condensed to the vertices of its surface.

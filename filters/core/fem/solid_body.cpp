@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -81,6 +82,26 @@ void SolidBody::requireBoundary(const SurfaceMesh& surface) const {
   if (static_cast<std::size_t>(surface.triangleCount()) != boundary.size())
     refuse("the surface has ", surface.triangleCount(),
            " triangles, the boundary of the volume mesh ", boundary.size());
+}
+
+std::vector<Elasticity> SolidBody::materialsBehind(const SurfaceMesh& surface) const {
+  const auto sorted = [](std::array<int, 3> corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::map<std::array<int, 3>, int>
+      cellOf;  // of one face of two cells either, which is asked of none
+  for (int cell = 0; cell < mesh_.cellCount(); ++cell)
+    for (int left = 0; left < 4; ++left) {
+      const auto corner = [&](int k) { return mesh_.tetrahedra()((left + k) % 4, cell); };
+      cellOf[sorted({corner(1), corner(2), corner(3)})] = cell;
+    }
+  std::vector<Elasticity> materials;
+  for (int f = 0; f < surface.triangleCount(); ++f) {
+    const auto point = [&](int k) { return pointOfVertex_[surface.triangles()(k, f)]; };
+    materials.push_back(material(cellOf.at(sorted({point(0), point(1), point(2)}))));
+  }
+  return materials;
 }
 
 bool SolidBody::isOf(const Material& material) const {

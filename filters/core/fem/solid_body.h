@@ -30,6 +30,9 @@ class SolidBody {
   int materialCount() const { return static_cast<int>(materials_.size()); }
   int materialNumber(int cell) const { return materialOfCell_.empty() ? 0 : materialOfCell_[cell]; }
   const Elasticity& material(int cell) const { return materials_[materialNumber(cell)]; }
+  /// Of the cells behind a surface's triangles.
+  /// @param surface  that of the constructor.
+  std::vector<Elasticity> materialsBehind(const SurfaceMesh& surface) const;
   /// Whether this isotropic material fills it.
   bool isOf(const Material& material) const;
   /// In the mean over its volume, kg/m^3; 0 where it is not known.

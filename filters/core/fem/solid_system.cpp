@@ -92,10 +92,8 @@ SolidSystem::SolidSystem(const ElasticModel& model, const SolidBody& body, Solid
   placeNodes(model, body, nodes);
   addCells(body, nodes, element, progress);
   addHats(model, body, nodes);
-  if (model.domain() == Domain::Unsupported)
-    addSprings(model.mesh(), body);
-  else
-    addWeight(body, nodes, element);
+  if (model.domain() == Domain::Unsupported) addSprings(model.mesh(), body);
+  addWeight(body, nodes, element);
   addProbes(body, nodes, element, probes);
 }
 
@@ -200,7 +198,7 @@ void SolidSystem::addCells(const SolidBody& body, const SolidNodes& nodes, Solid
 }
 
 void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, SolidElement element) {
-  loadCount = 3;
+  loadCount += 3;
   std::vector<double> weights(nodes.count, 0);  // of each node, as of one at its place
   const double corner = element == SolidElement::Linear ? 1.0 / 4 : -1.0 / 20, middle = 1.0 / 5;
   for (int cell = 0; cell < body.mesh().cellCount(); ++cell) {
@@ -215,7 +213,7 @@ void SolidSystem::addWeight(const SolidBody& body, const SolidNodes& nodes, Soli
       for (int end = 0; end < at.count(); ++end)
         entries.add(entries.size + k, at.place[end], -at.weight * weights[node]);
     }
-  entries.size += loadCount;
+  entries.size += 3;
 }
 
 void SolidSystem::addProbes(const SolidBody& body, const SolidNodes& nodes, SolidElement element,

@@ -34,10 +34,11 @@ struct LoadHat {
 ///     [ K_w  D_w    L_w   K_ww ] [ w ]      reactions        f = K_w^T u + K_ww w - L_w t
 /// so that the Schur complement of what is kept maps (-t, w) to (m, f).
 ///
-/// Kept after these are factors of loads on all nodes, whose columns tell what they do. Where
-/// something is fixed they are the body's weight along the three axes. Unsupported bodies are held
+/// Kept after these are factors of loads on all nodes, whose columns tell what they do: of the
+/// body's weight along the three axes. Unsupported bodies are held
 /// by six springs each, no more than determine where a rigid body is, so that loads that balance
-/// each other put no force on them; the loads are those that displace the bodies rigidly.
+/// each other put no force on them; before the weight, the loads are those that displace the bodies
+/// rigidly.
 struct SolidSystem {
   /// @param hats  of free vertices.
   /// @param held  3 by #V, or empty for none.
@@ -48,6 +49,9 @@ struct SolidSystem {
   int keptCount() const { return probeRow() + 13 * probeCount; }
   /// The kept row of the first probe: minus its ProbeValues, in the system's units.
   int probeRow() const { return loadRow() + loadCount; }
+  /// The kept row of the weight along the first axis.
+  int weightRow() const { return probeRow() - 3; }
+  int rigidLoadCount() const { return loadCount - 3; }
   /// The kept row of the first load.
   int loadRow() const { return 3 * static_cast<int>(hats.size() + fixedVertices.size()); }
   int unknownCount() const { return entries.size - keptCount(); }

@@ -83,6 +83,9 @@ class Condensation {
     if (isHeld()) return response;
     response.displacedMotions = shownMotions(shares_.displacement);
     response.loadedMotions = shownMotions(shares_.load);
+    // Springs that a rigid motion R stretches bear L = K R, and R^T F = L^T K^-1 F of any load F.
+    response.weightResultants =
+        -answer.rightCols<3>().middleRows(system_.loadRow(), system_.rigidLoadCount());
     return response;
   }
 
@@ -126,7 +129,7 @@ class Condensation {
   Eigen::MatrixXd movedRigidly() const {
     // Where single components are held, a rigid motion of the support is none of the body.
     const bool isFollowed = system_.held.cols() == 0;
-    const Eigen::Index motions = !isFollowed ? 0 : isHeld() ? 6 : system_.loadCount;
+    const Eigen::Index motions = !isFollowed ? 0 : isHeld() ? 6 : system_.rigidLoadCount();
     Eigen::MatrixXd given = Eigen::MatrixXd::Zero(system_.keptCount(), motions);
     if (motions > 0 && isHeld())
       given.middleRows(hatRows_, 3 * system_.fixedVertices.size()) =
@@ -154,7 +157,7 @@ class Condensation {
       if (wanted[c].kind == WantedColumn::Traction) {
         set(3 * wanted[c].index, -1);
       } else if (wanted[c].kind == WantedColumn::Load) {
-        set(system_.loadRow(), 1);
+        set(system_.weightRow(), 1);
       } else if (wanted[c].kind == WantedColumn::Displacement) {
         set(hatRows_ + 3 * fixedNumber_[wanted[c].index], 1);
       } else {
@@ -202,7 +205,7 @@ class Condensation {
         else if (wanted[c].kind == WantedColumn::Traction)
           answer.col(3 * c + k) = -schur.col(3 * index + k);
         else if (wanted[c].kind == WantedColumn::Load)
-          answer.col(3 * c + k) = schur.col(system_.loadRow() + k);
+          answer.col(3 * c + k) = schur.col(system_.weightRow() + k);
         else
           answer.col(3 * c + k) = schur.col(hatRows_ + 3 * fixedNumber_[index] + k);
       }

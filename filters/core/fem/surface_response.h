@@ -17,7 +17,7 @@ struct WantedColumn {
     Force,         ///< of a free vertex
     Traction,      ///< on one load hat
     Displacement,  ///< of a fixed vertex
-    Load,          ///< on all nodes, of a system that is held: its weight
+    Load,          ///< on all nodes: the body's weight, which has to be the last
   };
   Kind kind;
   int index;  ///< of the vertex, or of the hat; 0 for the load
@@ -27,14 +27,16 @@ struct WantedColumn {
 struct SurfaceResponse {
   /// 3 #V by 3 #wanted: displacements where free, reactions where fixed, per unit of what is given.
   Eigen::MatrixXd columns;
-  /// The largest relative error of displacements where the fixed vertices, or the springs of
-  /// unsupported bodies, move rigidly: of the solution's rounding.
   /// 13 #probes by 3 #wanted: ProbeValues.
   Eigen::MatrixXd probes;
+  /// The largest relative error of displacements where the fixed vertices, or the springs of
+  /// unsupported bodies, move rigidly: of the solution's rounding.
   double rigidMotionDefect = -1;
   /// 3 #V by 6 #bodies where nothing is fixed, rigidMotionsOfBodies as displacements show them and
   /// as the resultants of forces have them.
   Eigen::MatrixXd displacedMotions, loadedMotions;
+  /// 6 #bodies by 3 where nothing is fixed: resultants of the weight, by rigidMotionsOfBodies.
+  Eigen::MatrixXd weightResultants;
   std::size_t peakBytes = 0;
 };
 

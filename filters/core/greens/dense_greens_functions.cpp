@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "greens/replaced_rows.h"
 #include "greens/weighted_columns.h"
 
 namespace palpate {
@@ -24,10 +25,7 @@ std::shared_ptr<const ProbeRows> stiffer(const ProbeRows& probes,
   const ProbeRows perPascal = probes.stiffer(factor);
   Eigen::MatrixXd rows = perPascal.rows();
   for (int node : conditions.fixedNodes()) rows.middleCols<3>(3 * node) *= factor;
-  std::vector<Matrix6d> stiffness;
-  for (int point = 0; point < probes.count(); ++point)
-    stiffness.push_back(perPascal.stiffness(point));
-  return std::make_shared<const ProbeRows>(probes.points(), std::move(rows), std::move(stiffness));
+  return withRows(perPascal, std::move(rows));
 }
 
 }  // namespace

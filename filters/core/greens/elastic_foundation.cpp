@@ -9,7 +9,9 @@
 #include <numeric>
 #include <utility>
 
+#include "greens/gravity.h"
 #include "greens/reciprocity.h"
+#include "greens/replaced_rows.h"
 #include "greens/rigid_motions.h"
 #include "sentence.h"
 #include "stopwatch.h"
@@ -60,11 +62,12 @@ struct Springs {
 class Answers {
  public:
   Answers(const GreensFunctions& greens, const ElasticModel& model, const Eigen::Matrix3Xd& springs,
-          const Springs& where)
+          const Springs& where, std::shared_ptr<const ProbeRows> probes)
       : greens_(greens),
         model_(model),
         springs_(springs),
         where_(where),
+        probes_(std::move(probes)),
         types_(model.conditions().types()) {
     for (int v : where.released) types_[v] = 0;
     greens.requireColumns(nodeList(model.conditions().freeNodes()));
@@ -72,14 +75,14 @@ class Answers {
       if (greens.hasColumn(v)) columns_.push_back(v);
     std::vector<int> rows(greens.nodeCount());
     std::iota(rows.begin(), rows.end(), 0);
-    const bool isWeighed = greens.info().weightResponse.size() > 0;
-    answers_.resize(3 * rows.size(), 3 * columns_.size() + (isWeighed ? 3 : 0));
+    ofWeight_ = isLoose() ? looseWeightResponse(greens, model.mesh(), model.smoothPatches())
+                          : greens.info().weightResponse;
+    answers_.resize(3 * rows.size(), 3 * columns_.size() + ofWeight_.cols());
     greens.gather(nodeList(rows), nodeList(columns_), answers_.data());
-    if (isWeighed) answers_.rightCols<3>() = greens.info().weightResponse;
-    const ProbeRows* probes = greens.info().probes.get();
-    inside_ = Eigen::MatrixXd::Zero(probes ? probes->rows().rows() : 0, answers_.cols());
-    for (std::size_t c = 0; probes && c < columns_.size(); ++c)
-      inside_.middleCols<3>(3 * c) = probes->rows().middleCols<3>(3 * columns_[c]);
+    answers_.rightCols(ofWeight_.cols()) = ofWeight_.topRows(answers_.rows());
+    inside_ = Eigen::MatrixXd::Zero(probes_ ? probes_->rows().rows() : 0, answers_.cols());
+    for (std::size_t c = 0; probes_ && c < columns_.size(); ++c)
+      inside_.middleCols<3>(3 * c) = probes_->rows().middleCols<3>(3 * columns_[c]);
   }
 
   const std::vector<int>& columns() const { return columns_; }
@@ -88,23 +91,19 @@ class Answers {
 
   /// Null where the body has none.
   std::shared_ptr<const ProbeRows> probes() const {
-    const ProbeRows* before = greens_.info().probes.get();
-    if (!before) return nullptr;
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(inside_.rows(), before->rows().cols());
+    if (!probes_) return nullptr;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(inside_.rows(), probes_->rows().cols());
     for (std::size_t c = 0; c < columns_.size(); ++c)
       rows.middleCols<3>(3 * columns_[c]) = inside_.middleCols<3>(3 * c);
-    std::vector<Matrix6d> stiffness;
-    for (int point = 0; point < before->count(); ++point)
-      stiffness.push_back(before->stiffness(point));
-    return std::make_shared<const ProbeRows>(before->points(), std::move(rows),
-                                             std::move(stiffness));
+    return withRows(*probes_, std::move(rows));
   }
 
   /// Lets fixed vertices move on their springs.
   void release() {
     const std::vector<int>& nodes = where_.released;
     if (nodes.empty()) return;
-    const Eigen::MatrixXd moved = columnsOf(answers_, nodes), movedInside = columnsOf(inside_, nodes);
+    const Eigen::MatrixXd moved = columnsOf(answers_, nodes),
+                          movedInside = columnsOf(inside_, nodes);
     Eigen::MatrixXd stiffness = rowsOf(nodes, moved);
     scaleRows(nodes, stiffness);
     if (greens_.info().reciprocal) stiffness = ((stiffness + stiffness.transpose()) / 2).eval();
@@ -130,7 +129,6 @@ class Answers {
   /// Lets springs take their part of what acts on free vertices.
   void hold() {
     const std::vector<int>& nodes = where_.free;
-    const bool isLoose = model_.domain() == Domain::Unsupported;
     if (nodes.empty()) return;
     // What the springs cause.
     const Eigen::MatrixXd perSpring = stretched(nodes, columnsOf(answers_, nodes)),
@@ -138,7 +136,7 @@ class Answers {
     const Eigen::Index count = perSpring.cols();
     const Eigen::MatrixXd loosened =
         Eigen::MatrixXd::Identity(count, count) + rowsOf(nodes, perSpring);
-    if (!isLoose) {
+    if (!isLoose()) {
       const Eigen::MatrixXd stretches = solved(loosened, rowsOf(nodes, answers_));
       answers_.noalias() -= perSpring * stretches;
       inside_.noalias() -= insidePerSpring * stretches;
@@ -158,6 +156,7 @@ class Answers {
     for (std::size_t c = 0; c < columns_.size(); ++c)
       right.block(count, 3 * c, six, 3) =
           greens_.vertexArea(columns_[c]) * motions.middleRows<3>(3 * columns_[c]).transpose();
+    right.bottomRightCorner(six, ofWeight_.cols()) = ofWeight_.bottomRows(six);
     // Rows of the balance in the springs' own size, so that pivots compare.
     const double size = both.bottomLeftCorner(six, count).cwiseAbs().maxCoeff();
     both.bottomRows(six) /= size;
@@ -165,9 +164,15 @@ class Answers {
     const Eigen::MatrixXd found = solved(both, right);
     answers_ -= (perSpring * found.topRows(count)).eval();
     answers_.noalias() += motions * found.bottomRows(six);
+    if (!probes_) return;
+    inside_.noalias() -= insidePerSpring * found.topRows(count);
+    inside_.noalias() +=
+        rigidMotionsInside(model_.sharedMesh(), probes_->points()) * found.bottomRows(six);
   }
 
  private:
+  bool isLoose() const { return model_.domain() == Domain::Unsupported; }
+
   Eigen::Matrix3d blockOf(int node) const { return springs_.middleCols<3>(3 * node); }
 
   Eigen::MatrixXd columnsOf(const Eigen::MatrixXd& all, const std::vector<int>& nodes) const {
@@ -218,8 +223,10 @@ class Answers {
   const ElasticModel& model_;
   const Eigen::Matrix3Xd& springs_;
   const Springs& where_;
+  std::shared_ptr<const ProbeRows> probes_;
   std::vector<unsigned char> types_;
   std::vector<int> columns_;
+  Eigen::MatrixXd ofWeight_;
   Eigen::MatrixXd answers_, inside_;
 };
 
@@ -258,12 +265,14 @@ Eigen::Matrix3Xd foundationSprings(const SurfaceMesh& mesh, const std::vector<in
 
 FoundedGreensFunctions onElasticFoundation(const GreensFunctions& greens, const ElasticModel& model,
                                            const Eigen::Matrix3Xd& springs,
+                                           std::shared_ptr<const ProbeRows> probes,
                                            const ProgressCallback& callback) {
   const Progress progress(callback);
   progress.report(0, "gather");
   Stopwatch watch;
   const Springs where(greens, springs);
-  Answers answers(greens, model, springs, where);
+  if (!probes) probes = greens.info().probes;
+  Answers answers(greens, model, springs, where, std::move(probes));
   progress.report(0.2, "release");
   answers.release();
   progress.report(0.6, "hold");

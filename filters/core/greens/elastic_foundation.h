@@ -39,14 +39,17 @@ struct FoundedGreensFunctions {
 /// them, too. What the body's weight does goes with it where it was known, and its probes.
 /// @param model    its domain, and surface, conditions and patches that the Green's functions are
 /// of.
+/// Where a homogeneous body's surface tells its weight, that of an unsupported one is found, too.
 /// @param springs  3 by 3 #V, symmetric blocks, N/m: positive definite at vertices that are
 ///                 released, zero at fixed ones that stay fixed, positive semidefinite at free
 ///                 ones.
+/// @param probes   of the body without the springs; null for those that its Green's functions have.
 /// @throws std::invalid_argument for springs that are none, no springs at all, a missing column of
 ///         a free vertex or a released one, and where a motion remains that nothing resists;
 ///         Aborted; std::bad_alloc.
 FoundedGreensFunctions onElasticFoundation(const GreensFunctions& greens, const ElasticModel& model,
                                            const Eigen::Matrix3Xd& springs,
+                                           std::shared_ptr<const ProbeRows> probes = nullptr,
                                            const ProgressCallback& progress = {});
 
 }  // namespace palpate

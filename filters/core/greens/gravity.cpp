@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "greens/rigid_motions.h"
+
 namespace palpate {
 namespace {
 
@@ -38,8 +40,8 @@ void requireKnown(const GreensFunctions& greens, const SurfaceMesh& mesh,
   if (info.domain == Domain::Given)
     reason =
         "the weight of what a given matrix is of is not known from its surface, nor that of a "
-        "model on springs, unless these were put under one of finite elements with a support, or "
-        "a shell";
+        "model on springs, unless these were put under one of finite elements, a shell, or an "
+        "unsupported one without sharp edges";
   else if (info.domain == Domain::HalfSpace)
     reason = "the weight of a half-space is infinite: it sinks without end under its own";
   else if (info.domain == Domain::Exterior)
@@ -56,35 +58,55 @@ void requireKnown(const GreensFunctions& greens, const SurfaceMesh& mesh,
   greens.requireColumns(nodeList(info.conditions.freeNodes()));
 }
 
+/// The field u_p that is in equilibrium with the weight of a homogeneous body (see weightResponse).
+class ParticularField {
+ public:
+  ParticularField(const Material& material, const Eigen::Vector3d& weight,
+                  const Eigen::Vector3d& origin)
+      : c_(-(1 - 2 * material.poissonRatio()) / material.youngsModulus() * weight),
+        weight_(weight),
+        origin_(origin) {}
+
+  Eigen::Vector3d displacement(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d x = place - origin_;
+    return c_.dot(x) * x - x.squaredNorm() / 2 * c_;
+  }
+
+  /// What is left to bear of a body whose surface is free: minus its tractions, 3 by #F.
+  Eigen::Matrix3Xd tractionsLeft(const SurfaceMesh& mesh) const {
+    Eigen::Matrix3Xd tractions(3, mesh.triangleCount());
+    for (int f = 0; f < mesh.triangleCount(); ++f) {
+      Eigen::Vector3d middle = -origin_;
+      for (int k = 0; k < 3; ++k) middle += mesh.points().col(mesh.triangles()(k, f)) / 3;
+      tractions.col(f) = weight_.dot(middle) * mesh.triangleNormals().col(f);
+    }
+    return tractions;
+  }
+
+ private:
+  Eigen::Vector3d c_, weight_, origin_;
+};
+
 /// Under one weight; zero where fixed.
 Eigen::Matrix3Xd displacementUnder(const Eigen::Vector3d& weight, const GreensFunctions& greens,
                                    const SurfaceMesh& mesh, const Eigen::VectorXi& patches) {
   const GreensFunctionsInfo& info = greens.info();
   const std::vector<int> fixed = info.conditions.fixedNodes(), free = info.conditions.freeNodes();
   const Eigen::Vector3d origin = middleOf(greens, mesh, fixed);
-  const Eigen::Vector3d c =
-      -(1 - 2 * info.material.poissonRatio()) / info.material.youngsModulus() * weight;
-  const auto particular = [&](int node) -> Eigen::Vector3d {
-    const Eigen::Vector3d x = mesh.points().col(node) - origin;
-    return c.dot(x) * x - x.squaredNorm() / 2 * c;
-  };
-
-  Eigen::Matrix3Xd tractions(3, mesh.triangleCount()), applied;
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    Eigen::Vector3d middle = -origin;
-    for (int k = 0; k < 3; ++k) middle += mesh.points().col(mesh.triangles()(k, f)) / 3;
-    tractions.col(f) = weight.dot(middle) * mesh.triangleNormals().col(f);
-  }
-  Eigen::Matrix3Xd displacement = solveFaceTractions(greens, mesh, patches, tractions, applied);
+  const ParticularField particular(info.material, weight, origin);
+  Eigen::Matrix3Xd applied;
+  Eigen::Matrix3Xd displacement =
+      solveFaceTractions(greens, mesh, patches, particular.tractionsLeft(mesh), applied);
 
   Eigen::VectorXd moved(3 * fixed.size());  // areas times displacements
   for (std::size_t k = 0; k < fixed.size(); ++k)
-    moved.segment<3>(3 * k) = -greens.vertexArea(fixed[k]) * particular(fixed[k]);
+    moved.segment<3>(3 * k) =
+        -greens.vertexArea(fixed[k]) * particular.displacement(mesh.points().col(fixed[k]));
   Eigen::MatrixXd reactions(3 * fixed.size(), 3);
   for (int node : free) {
     greens.gather(nodeList(fixed), Eigen::Map<const Eigen::VectorXi>(&node, 1), reactions.data());
-    displacement.col(node) +=
-        particular(node) - reactions.transpose() * moved / greens.vertexArea(node);
+    displacement.col(node) += particular.displacement(mesh.points().col(node)) -
+                              reactions.transpose() * moved / greens.vertexArea(node);
   }
   for (int node : fixed) displacement.col(node).setZero();
   return displacement;
@@ -95,7 +117,7 @@ Eigen::Matrix3Xd displacementUnder(const Eigen::Vector3d& weight, const GreensFu
 Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                const Eigen::VectorXi& patches) {
   const GreensFunctionsInfo& info = greens.info();
-  if (info.weightResponse.size() > 0) return info.weightResponse;
+  if (info.weightResponse.rows() == 3 * greens.nodeCount()) return info.weightResponse;
   requireKnown(greens, mesh, patches);
   Eigen::MatrixXd response(3 * mesh.vertexCount(), 3);
   for (int k = 0; k < 3; ++k)
@@ -103,11 +125,32 @@ Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh&
   return response;
 }
 
+Eigen::MatrixXd looseWeightResponse(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                    const Eigen::VectorXi& patches) {
+  const GreensFunctionsInfo& info = greens.info();
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh);
+  if (info.weightResponse.rows() == motions.rows() + motions.cols()) return info.weightResponse;
+  if (!info.homogeneous || hasSharpEdges(info, mesh, patches)) return {};
+  const Eigen::Index size = motions.rows();
+  Eigen::MatrixXd response(size + motions.cols(), 3);
+  for (int k = 0; k < 3; ++k) {
+    const ParticularField particular(info.material, Eigen::Vector3d::Unit(k),
+                                     mesh.points().rowwise().mean());
+    Eigen::Matrix3Xd applied;
+    Eigen::Matrix3Xd displacement =
+        solveFaceTractions(greens, mesh, patches, particular.tractionsLeft(mesh), applied);
+    for (int v = 0; v < mesh.vertexCount(); ++v)
+      displacement.col(v) += particular.displacement(mesh.points().col(v));
+    response.col(k) << displacement.reshaped(), motions.transpose() * applied.reshaped();
+  }
+  return response;
+}
+
 Eigen::Matrix3Xd gravityDisplacement(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                      const Eigen::VectorXi& patches,
                                      const Eigen::Vector3d& weight) {
   const GreensFunctionsInfo& info = greens.info();
-  if (info.weightResponse.size() == 0) {
+  if (info.weightResponse.rows() != 3 * greens.nodeCount()) {
     requireKnown(greens, mesh, patches);
     return displacementUnder(weight, greens, mesh, patches);
   }

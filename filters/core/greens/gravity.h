@@ -33,6 +33,13 @@ namespace palpate {
 Eigen::MatrixXd weightResponse(const GreensFunctions& greens, const SurfaceMesh& mesh,
                                const Eigen::VectorXi& patches);
 
+/// The same of an unsupported body: its weight balanced as any load is, and below it, 6 #bodies
+/// rows, the weight's resultants along rigidMotionsOfBodies, m^3. Springs need both.
+/// @return 3 #nodes + 6 #bodies by 3, or nothing where it is not known: of boundary elements with
+///         sharp edges.
+Eigen::MatrixXd looseWeightResponse(const GreensFunctions& greens, const SurfaceMesh& mesh,
+                                    const Eigen::VectorXi& patches);
+
 /// The displacement of a body under its own weight.
 /// @param weight  b, density times acceleration, N/m^3 (of several densities in the mean).
 /// @return 3 by #nodes, m; zero where fixed.

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <stdexcept>
 
+#include "mesh/surface_locator.h"
 #include "model/support.h"
 
 namespace palpate {
@@ -32,6 +33,26 @@ Eigen::MatrixXd rigidMotionsOfBodies(const SurfaceMesh& mesh) {
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(all.rows(), 6 * mesh.bodyCount());
   for (int v = 0; v < mesh.vertexCount(); ++v)
     motions.block<3, 6>(3 * v, 6 * mesh.bodyOfVertex(v)) = all.middleRows<3>(3 * v);
+  return motions;
+}
+
+Eigen::MatrixXd rigidMotionsInside(const std::shared_ptr<const SurfaceMesh>& mesh,
+                                   const Eigen::Matrix3Xd& points) {
+  const SurfaceLocator locator(mesh);
+  const Eigen::MatrixXd all =
+      rigidMotions(points, mesh->points().rowwise().mean(), mesh->diagonal());
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(13 * points.cols(), 6 * mesh->bodyCount());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const int vertex = mesh->triangles()(0, locator.nearest(points.col(i)).triangle);
+    auto block = motions.block<13, 6>(13 * i, 6 * mesh->bodyOfVertex(vertex));
+    block.topRows<3>() = all.middleRows<3>(3 * i);
+    for (int k = 0; k < 3; ++k)  // du_i / dx_l = e_i . (axis x e_l) over the diagonal
+      for (int l = 0; l < 3; ++l) {
+        const Eigen::Vector3d turned = Eigen::Vector3d::Unit(k).cross(Eigen::Vector3d::Unit(l));
+        for (int row = 0; row < 3; ++row)
+          block(3 + 3 * row + l, 3 + k) = turned[row] / mesh->diagonal();
+      }
+  }
   return motions;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "mesh/surface_mesh.h"
@@ -13,6 +14,11 @@ namespace palpate {
 /// The six rigid motions of each body, at its vertices: 3 #V by 6 #bodies, zero at other bodies.
 /// Translations, then turns about the mesh's middle by one over its diagonal.
 Eigen::MatrixXd rigidMotionsOfBodies(const SurfaceMesh& mesh);
+
+/// The same at points inside: 13 #points by 6 #bodies, ProbeValues.
+/// @param points  3 by any; each is of the body whose surface is nearest.
+Eigen::MatrixXd rigidMotionsInside(const std::shared_ptr<const SurfaceMesh>& mesh,
+                                   const Eigen::Matrix3Xd& points);
 
 /// What of a field is rigid motion, in the mean over the surface: (M^T A M)^-1 M^T A, #motions by
 /// 3 #V.

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <utility>
 
+#include "greens/probe_rows.h"
 #include "greens/support_tractions.h"
 #include "sentence.h"
 
@@ -33,6 +36,35 @@ Eigen::Matrix3d gradientAlong(const SurfaceMesh& mesh, int triangle,
   return gradient / (2 * mesh.triangleAreas()[triangle]);
 }
 
+/// What is known at a triangle: its normal out of the material, the mean traction and the gradient
+/// along the surface.
+struct SurfaceState {
+  Eigen::Vector3d normal, traction;
+  Eigen::Matrix3d along;
+};
+
+/// @param complete  (triangle, state) -> (gradient, stress).
+template <class Complete>
+SurfaceFields fieldsOf(const ElasticModel& model, const Eigen::Matrix3Xd& displacement,
+                       const Eigen::Matrix3Xd& traction, const Complete& complete) {
+  const SurfaceMesh& mesh = model.mesh();
+  requireAtVertices(mesh, displacement, "displacement");
+  requireAtVertices(mesh, traction, "traction");
+  const double side = model.domain() == Domain::Exterior ? -1 : 1;
+  const Eigen::Matrix3Xd shares = supportShares(mesh, model.conditions(), model.smoothPatches());
+  SurfaceFields fields;
+  for (int f = 0; f < mesh.triangleCount(); ++f) {
+    SurfaceState at{side * mesh.triangleNormals().col(f), Eigen::Vector3d::Zero(),
+                    gradientAlong(mesh, f, displacement)};
+    for (int k = 0; k < 3; ++k)
+      at.traction += shares(k, f) / 3 * traction.col(mesh.triangles()(k, f));
+    const auto [gradient, stress] = complete(f, at);
+    fields.gradient.push_back(gradient);
+    fields.stress.push_back(stress);
+  }
+  return fields;
+}
+
 }  // namespace
 
 DisplacementGradients surfaceGradients(const SurfaceMesh& mesh,
@@ -54,30 +86,53 @@ DisplacementGradients surfaceGradients(const SurfaceMesh& mesh,
 
 SurfaceFields surfaceFields(const ElasticModel& model, const Eigen::Matrix3Xd& displacement,
                             const Eigen::Matrix3Xd& traction) {
-  const SurfaceMesh& mesh = model.mesh();
-  requireAtVertices(mesh, displacement, "displacement");
-  requireAtVertices(mesh, traction, "traction");
   const double shear = model.material().shearModulus(), nu = model.material().poissonRatio();
-  const double side = model.domain() == Domain::Exterior ? -1 : 1;
-  const Eigen::Matrix3Xd shares = supportShares(mesh, model.conditions(), model.smoothPatches());
-  SurfaceFields fields;
-  for (int f = 0; f < mesh.triangleCount(); ++f) {
-    const Eigen::Vector3d normal = side * mesh.triangleNormals().col(f);
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) mean += shares(k, f) / 3 * traction.col(mesh.triangles()(k, f));
-    const Eigen::Matrix3d along = gradientAlong(mesh, f, displacement);
-    const Eigen::Vector3d sheared = mean / shear - along.transpose() * normal;
+  return fieldsOf(model, displacement, traction, [&](int, const SurfaceState& at) {
+    const Eigen::Vector3d sheared = at.traction / shear - at.along.transpose() * at.normal;
+    const double normalTraction = at.traction.dot(at.normal);
     // n . d from t . n = lambda (tr G + n . d) + 2 G n . d, in which lambda may be infinite.
     const double across =
-        ((1 - 2 * nu) * mean.dot(normal) / shear - 2 * nu * along.trace()) / (2 * (1 - nu));
-    const Eigen::Vector3d out = sheared - sheared.dot(normal) * normal + across * normal;
-    const Eigen::Matrix3d gradient = along + out * normal.transpose();
+        ((1 - 2 * nu) * normalTraction / shear - 2 * nu * at.along.trace()) / (2 * (1 - nu));
+    const Eigen::Vector3d out = sheared - sheared.dot(at.normal) * at.normal + across * at.normal;
+    const Eigen::Matrix3d gradient = at.along + out * at.normal.transpose();
     Eigen::Matrix3d stress = shear * (gradient + gradient.transpose());
-    stress.diagonal().array() += mean.dot(normal) - normal.dot(stress * normal);
-    fields.gradient.push_back(gradient);
-    fields.stress.push_back(stress);
-  }
-  return fields;
+    stress.diagonal().array() += normalTraction - at.normal.dot(stress * at.normal);
+    return std::pair(gradient, stress);
+  });
+}
+
+SurfaceFields surfaceFields(const ElasticModel& model, const std::vector<Elasticity>& materials,
+                            const Eigen::Matrix3Xd& displacement,
+                            const Eigen::Matrix3Xd& traction) {
+  if (static_cast<int>(materials.size()) != model.mesh().triangleCount())
+    refuse("there are materials of ", materials.size(), " triangles, the surface has ",
+           model.mesh().triangleCount());
+  return fieldsOf(model, displacement, traction, [&](int f, const SurfaceState& at) {
+    const Elasticity& material = materials[f];
+    const double unit = material.stiffness().cwiseAbs().maxCoeff();
+    const auto stressOf = [&](const Eigen::Matrix3d& gradient) {
+      ProbeValues values = ProbeValues::Zero();
+      values.segment<9>(3) = gradient.reshaped<Eigen::RowMajor>();
+      return fieldOf(values, material.stiffness()).stress;
+    };
+    // Unknown are d and, over the unit, the pressure: t = stress n, and what it compresses.
+    Eigen::Matrix4d system = Eigen::Matrix4d::Identity();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (int k = 0; k < 3; ++k)
+      system.block<3, 1>(0, k) =
+          stressOf(Eigen::Vector3d::Unit(k) * at.normal.transpose()) * at.normal / unit;
+    right.head<3>() = (at.traction - stressOf(at.along) * at.normal) / unit;
+    if (material.isSplit()) {
+      system.topRightCorner<3, 1>() = at.normal;
+      system.bottomRows<1>() << at.normal.transpose(), -material.compressibility() * unit;
+      right[3] = -at.along.trace();
+    }
+    const Eigen::Vector4d found = system.partialPivLu().solve(right);
+    const Eigen::Matrix3d gradient = at.along + found.head<3>() * at.normal.transpose();
+    Eigen::Matrix3d stress = stressOf(gradient);
+    stress.diagonal().array() += unit * found[3];
+    return std::pair(gradient, stress);
+  });
 }
 
 double spectralNorm(const Eigen::Matrix3d& gradient) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/elastic_model.h"
+#include "model/elasticity.h"
 
 namespace palpate {
 
@@ -43,6 +44,13 @@ struct SurfaceFields {
 /// @throws std::invalid_argument if sizes differ.
 SurfaceFields surfaceFields(const ElasticModel& model, const Eigen::Matrix3Xd& displacement,
                             const Eigen::Matrix3Xd& traction);
+
+/// The same of a body of any materials, by the materials behind its triangles: with the stiffness C
+/// and the derivative d along the normal, C (sym(G + d n^T)) n = t, and where a material is split
+/// its pressure with the change of volume.
+/// @param materials  #F, Pa.
+SurfaceFields surfaceFields(const ElasticModel& model, const std::vector<Elasticity>& materials,
+                            const Eigen::Matrix3Xd& displacement, const Eigen::Matrix3Xd& traction);
 
 /// The largest singular value.
 double spectralNorm(const Eigen::Matrix3d& gradient);

@@ -52,8 +52,8 @@ constexpr const char* SpringStiffness = "SpringStiffness"; // 1 or 9, row by row
 
 // Point data of shells.
 constexpr const char* Thickness = "Thickness"; // m; cell data, too, and then one a triangle
-/// uint8, 6: displacement along x, y, z and rotation about them held, besides what fixed vertices hold;
-/// where all of the displacement is, the vertex is fixed and its rotation held as here; optional.
+/// uint8, 6: displacement along x, y, z and rotation about them held, besides what fixed vertices hold (of
+/// solids the first 3); where all of the displacement is, a shell's vertex is fixed, its rotation as here.
 constexpr const char* HeldComponents = "HeldComponents";
 
 // Cell data.
@@ -92,6 +92,9 @@ constexpr const char* WeightResponse = "WeightResponse";
 constexpr const char* ProbeGreensFunctions = "ProbeGreensFunctions";
 constexpr const char* ProbePoints = "ProbePoints";
 constexpr const char* ProbeStiffness = "ProbeStiffness";
+/// 22 a triangle of a body of several or anisotropic materials: the upper triangle, row by row, of the
+/// stiffness behind it, Pa, and where nearly incompressible 1 / lambda, else -1.
+constexpr const char* SurfaceElasticity = "SurfaceElasticity";
 /// Young's modulus that the stored functions were computed with; YoungsModulus scales what is served.
 constexpr const char* GreensFunctionYoungsModulus = "GreensFunctionYoungsModulus"; // Pa
 constexpr const char* GreensFunctionSource = "GreensFunctionSource";               // string
@@ -250,7 +253,7 @@ constexpr const char* Zone = "Zone";           // int, optional: whose force it 
 /// Field data of one computation of Green's functions.
 constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctionNodes,
   PatchGreensFunctions, PatchGreensFunctionNodes, WeightResponse, Density,
-  ProbeGreensFunctions, ProbePoints, ProbeStiffness, GreensFunctionYoungsModulus, GreensFunctionSource,
+  ProbeGreensFunctions, ProbePoints, ProbeStiffness, SurfaceElasticity, GreensFunctionYoungsModulus, GreensFunctionSource,
   HomogeneousMaterial, GreensFunctionDomain, Clamped, GreensFunctionsReciprocal, MeshFingerprint, ConditionEstimate,
   ReciprocityDefect, RotationDefect, SolverResidual, IntegrationTolerance, WallRatio, SupportWidth,
   RockingCompliance, ErrorEstimate, ContactErrorEstimate, MostErrorEstimate, DiscretizationError,

@@ -5,6 +5,7 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "model_arrays.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -18,6 +19,8 @@ namespace palpate::convert
 {
 namespace
 {
+constexpr int ElasticityValues = 22;
+
 /// A tuple a column.
 void setFieldMatrix(vtkPolyData* surface, const char* name, const Eigen::MatrixXd& values)
 {
@@ -105,9 +108,63 @@ void readInside(vtkPolyData* surface, GreensFunctionsInfo& info)
   }
   if (hasField(surface, arrays::WeightResponse))
   {
-    info.weightResponse =
-      fieldMatrix(surface, arrays::WeightResponse, 3 * surface->GetNumberOfPoints(), 3);
+    vtkIdType rows = 3 * surface->GetNumberOfPoints();
+    if (info.domain == Domain::Unsupported)
+    {
+      rows += 6 * SurfaceMesh(meshOf(surface)).bodyCount(); // the weight's resultants
+    }
+    info.weightResponse = fieldMatrix(surface, arrays::WeightResponse, rows, 3);
   }
   info.probes = probesOf(surface);
+}
+
+void setSurfaceElasticity(vtkPolyData* surface, const std::vector<Elasticity>& materials)
+{
+  Eigen::MatrixXd values(ElasticityValues, static_cast<Eigen::Index>(materials.size()));
+  for (std::size_t f = 0; f < materials.size(); ++f)
+  {
+    int next = 0;
+    for (int row = 0; row < 6; ++row)
+    {
+      for (int column = row; column < 6; ++column)
+      {
+        values(next++, f) = materials[f].stiffness()(row, column);
+      }
+    }
+    values(next, f) = materials[f].isSplit() ? materials[f].compressibility() : -1;
+  }
+  setFieldMatrix(surface, arrays::SurfaceElasticity, values);
+}
+
+std::vector<Elasticity> surfaceElasticityOf(vtkPolyData* surface, double factor)
+{
+  std::vector<Elasticity> materials;
+  if (!hasField(surface, arrays::SurfaceElasticity))
+  {
+    return materials;
+  }
+  const Eigen::MatrixXd values = fieldMatrix(
+    surface, arrays::SurfaceElasticity, ElasticityValues, surface->GetNumberOfPolys());
+  for (const auto& of : values.colwise())
+  {
+    Matrix6d stiffness;
+    int next = 0;
+    for (int row = 0; row < 6; ++row)
+    {
+      for (int column = row; column < 6; ++column)
+      {
+        stiffness(row, column) = stiffness(column, row) = factor * of[next++];
+      }
+    }
+    if (of[next] < 0)
+    {
+      materials.emplace_back(stiffness);
+      continue;
+    }
+    // Isotropic: 1 / lambda = (1 - 2 nu) / (2 G nu).
+    const double shear = stiffness(3, 3), nu = 1 / (2 + 2 * shear * of[next] / factor);
+    materials.emplace_back(Material(2 * shear * (1 + nu), nu));
+  }
+  return materials;
 }
 } // namespace palpate::convert

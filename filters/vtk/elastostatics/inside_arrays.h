@@ -19,6 +19,15 @@ void setInside(vtkPolyData* surface, const GreensFunctionsInfo& info);
 /// @throws std::invalid_argument for an array that has not the size or the finite values that it must
 ///         have.
 void readInside(vtkPolyData* surface, GreensFunctionsInfo& info);
+
+/// Adds SurfaceElasticity.
+/// @param materials  behind each triangle.
+void setSurfaceElasticity(vtkPolyData* surface, const std::vector<Elasticity>& materials);
+
+/// The same, read; nothing without the array.
+/// @param factor  by which all is stiffer than it was.
+/// @throws std::invalid_argument for an array of another size or of what is no elastic material.
+std::vector<Elasticity> surfaceElasticityOf(vtkPolyData* surface, double factor);
 } // namespace palpate::convert
 
 #endif

@@ -5,8 +5,10 @@
 
 #include "array_names.h"
 #include "conversion.h"
+#include "fingerprint_arrays.h"
 #include "greens/dense_greens_functions.h"
 #include "halfspace/half_space_greens_functions.h"
+#include "held_arrays.h"
 #include "inside_arrays.h"
 #include "mesh/mesh_defects.h"
 #include "mesh/smooth_patches.h"
@@ -220,26 +222,6 @@ std::vector<PatchColumn> patchColumnsOf(vtkPolyData* surface)
   return columns;
 }
 
-void requireFingerprint(vtkPolyData* surface, std::uint64_t expected)
-{
-  // Readers give any of the 64-bit integer classes.
-  vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::MeshFingerprint);
-  std::uint64_t stored = 0;
-  const bool usable = array && array->GetNumberOfValues() == 1 &&
-    array->GetDataTypeSize() == sizeof stored && array->HasStandardMemoryLayout();
-  if (usable)
-  {
-    std::memcpy(&stored, array->GetVoidPointer(0), sizeof stored);
-  }
-  if (!usable || stored != expected)
-  {
-    throw std::invalid_argument(
-      "the Green's functions are stale: points, triangles, boundary types, smooth patches or "
-      "Poisson's ratio (of a shell its thickness and what is held, too) have changed since they were "
-      "computed; compute them again");
-  }
-}
-
 constexpr const char* DomainNames[] = { "interior", "exterior", "halfspace", "shell", "given",
   "unsupported" };
 
@@ -384,6 +366,10 @@ ServedModel servedModelOf(vtkPolyData* surface)
   if (info.domain == Domain::Shell)
   {
     readShellArrays(surface, *served.mesh, info);
+  }
+  if (info.domain == Domain::Interior)
+  {
+    readHeldArrays(surface, info);
   }
   requireFingerprint(surface, info.fingerprint);
   info.vertexAreas = served.mesh->vertexAreas();

@@ -4,7 +4,10 @@
 #include "stress_arrays.h"
 
 #include "array_names.h"
+#include "conversion.h"
+#include "greens/rigid_motions.h"
 #include "greens/surface_fields.h"
+#include "inside_arrays.h"
 #include "model_arrays.h"
 
 #include "vtkDataSetAttributes.h"
@@ -66,19 +69,62 @@ void setSymmetric(const Eigen::Matrix3d& m, double* out)
   const double values[] = { m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2) };
   std::copy(values, values + 6, out);
 }
+
+DeformedBody deformed(const ServedModel& served, vtkPolyData* surface)
+{
+  const GreensFunctionsInfo& info = served.greens->info();
+  Eigen::Matrix3Xd displacement = contactVectors(surface, arrays::Displacement);
+  Eigen::Matrix3Xd traction = contactVectors(surface, arrays::Traction);
+  if (info.domain == Domain::Unsupported)
+  {
+    const Eigen::MatrixXd motions = rigidMotionsOfBodies(*served.mesh);
+    const Eigen::VectorXd mean = meanRigidMotion(info.vertexAreas, motions) * traction.reshaped();
+    traction -= (motions * mean).reshaped(3, traction.cols());
+  }
+  return { ElasticModel(
+             served.mesh, info.material, info.conditions, served.smoothPatches, info.domain),
+    std::move(displacement), std::move(traction) };
+}
 } // namespace
 
 DeformedBody deformedBodyOf(vtkPolyData* surface)
 {
   const ServedModel served = servedModelOf(surface);
   const GreensFunctionsInfo& info = served.greens->info();
-  if (!info.homogeneous || (info.domain != Domain::Interior && info.domain != Domain::Exterior))
+  if (!info.homogeneous ||
+    (info.domain != Domain::Interior && info.domain != Domain::Exterior &&
+      info.domain != Domain::Unsupported))
   {
-    throw std::invalid_argument("stresses are computed in bodies of one isotropic material and around "
-                                "cavities, not in this model");
+    throw std::invalid_argument(
+      "stresses are computed inside bodies of one isotropic material and around cavities, not in this "
+      "model; other bodies of finite elements, and what is put on springs, know of the places inside "
+      "that are named beforehand (precompute --method fem --probe, foundation --probe)");
   }
-  return { ElasticModel(served.mesh, info.material, info.conditions, served.smoothPatches, info.domain),
-    contactVectors(surface, arrays::Displacement), contactVectors(surface, arrays::Traction) };
+  return deformed(served, surface);
+}
+
+DeformedBody deformedSurfaceOf(vtkPolyData* surface, std::vector<Elasticity>& materials)
+{
+  const ServedModel served = servedModelOf(surface);
+  const GreensFunctionsInfo& info = served.greens->info();
+  if (info.homogeneous)
+  {
+    materials.clear();
+  }
+  else
+  {
+    materials = surfaceElasticityOf(surface,
+      info.material.youngsModulus() /
+        fieldNumber(surface, arrays::GreensFunctionYoungsModulus, "compute the Green's functions again"));
+  }
+  if (info.domain == Domain::Shell || info.domain == Domain::Given ||
+    (!info.homogeneous && materials.empty()))
+  {
+    throw std::invalid_argument(
+      "stresses at the surface are computed of solids, cavities and half-spaces: not in shells and given "
+      "matrices, on springs, or where single components are held, as nobody knows what these bear");
+  }
+  return deformed(served, surface);
 }
 
 std::optional<StoredProbes> storedProbesOf(vtkPolyData* surface, const Eigen::Matrix3Xd& places)

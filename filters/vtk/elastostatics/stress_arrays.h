@@ -26,9 +26,14 @@ struct DeformedBody
   Eigen::Matrix3Xd displacement, traction; // 3 by #points
 };
 
-/// A model with the arrays Displacement and Traction of a contact.
+/// A model with the arrays Displacement and Traction of a contact, of what nothing holds with what
+/// balances it.
 /// @throws also for a half-space, and for bodies of several or anisotropic materials.
 DeformedBody deformedBodyOf(vtkPolyData* surface);
+
+/// The same to look at its surface alone, of half-spaces and any materials, too.
+/// @param materials  set to those behind the triangles; to nothing where the model's is.
+DeformedBody deformedSurfaceOf(vtkPolyData* surface, std::vector<Elasticity>& materials);
 
 /// Rows of points that a model carries, and the contact that they are read under.
 struct StoredProbes

@@ -158,25 +158,68 @@ const MaterialArrays* materialKindOf(vtkUnstructuredGrid* grid)
   const MaterialArrays* found = nullptr;
   for (const MaterialArrays& kind : MaterialKinds)
   {
-    std::size_t present = 0;
+    bool isPresent = false;
     for (const MaterialArrays::Array& array : kind.arrays)
     {
-      present += cellArray(grid, array.name, array.components) != nullptr;
+      isPresent = cellArray(grid, array.name, array.components) || isPresent;
     }
-    if (present == 0)
+    if (!isPresent)
     {
       continue;
     }
-    if (present < kind.arrays.size() || found)
+    for (const MaterialArrays::Array& array : kind.arrays)
+    {
+      if (!grid->GetCellData()->HasArray(array.name))
+      {
+        throw std::invalid_argument(std::string("the cells of the volume mesh have no '") + array.name +
+          "', which goes with their '" +
+          (array.name == kind.arrays[0].name ? kind.arrays[1] : kind.arrays[0]).name + "': add it");
+      }
+    }
+    if (found)
     {
       throw std::invalid_argument(
-        "the cells of a volume mesh have either YoungsModulus and PoissonRatio, or "
+        "the cells of a volume mesh have materials of two kinds: they have either YoungsModulus and PoissonRatio, or "
         "TransverselyIsotropicModuli and FibreDirection, or OrthotropicModuli and MaterialAxes, or "
         "ElasticityTensor");
     }
     found = &kind;
   }
   return found;
+}
+
+/// The isotropic material nearest to one, with the same bulk and shear moduli in the mean over all
+/// directions (W. Voigt 1889).
+Material isotropicMeanOf(const Elasticity& material)
+{
+  const Matrix6d& c = material.stiffness();
+  const double shear = (c(0, 0) + c(1, 1) + c(2, 2) - c(0, 1) - c(0, 2) - c(1, 2) +
+                         3 * (c(3, 3) + c(4, 4) + c(5, 5))) /
+    15;
+  const double bulk = c.topLeftCorner<3, 3>().sum() / 9;
+  const double young = 9 * bulk * shear / (3 * bulk + shear);
+  return Material(young, young / (2 * shear) - 1);
+}
+
+/// In the mean over the tetrahedra: the unit that a body of several materials is told by.
+/// @param kind  of its cells' materials.
+Material meanMaterialOf(vtkUnstructuredGrid* grid, const MaterialArrays& kind)
+{
+  const CellMaterials cells = materialsOf(grid, Material(1, 0));
+  const std::vector<vtkIdType> tetrahedra = tetrahedronCells(grid);
+  double young = 0, poisson = 0;
+  for (std::size_t i = 0; i < tetrahedra.size(); ++i)
+  {
+    const auto given = [&](const char* name)
+    { return grid->GetCellData()->GetArray(name)->GetComponent(tetrahedra[i], 0); };
+    const Material material = kind.material == isotropic
+      ? Material(given(arrays::YoungsModulus), given(arrays::PoissonRatio))
+      : isotropicMeanOf(cells.materials[cells.ofCell[i]]);
+    const double share = 1. / static_cast<double>(tetrahedra.size());
+    young += share * material.youngsModulus();
+    poisson += share * material.poissonRatio();
+  }
+  return Material(young, poisson);
 }
 
 /// Tetrahedra, and the grid's point behind each of theirs.
@@ -262,6 +305,13 @@ vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid)
   auto boundary = vtkSmartPointer<vtkPolyData>::New();
   setSurface(boundary, points, body.mesh.boundary().unaryExpr([&](int i) { return number[i]; }));
   boundary->GetFieldData()->ShallowCopy(grid->GetFieldData());
+  const MaterialArrays* kind = materialKindOf(grid);
+  if (kind && !hasField(boundary, arrays::YoungsModulus) && !hasField(boundary, arrays::PoissonRatio))
+  {
+    const Material mean = meanMaterialOf(grid, *kind);
+    setFieldNumber(boundary, arrays::YoungsModulus, mean.youngsModulus());
+    setFieldNumber(boundary, arrays::PoissonRatio, mean.poissonRatio());
+  }
   vtkPointData* data = boundary->GetPointData();
   data->CopyAllOn();
   data->CopyAllocate(grid->GetPointData(), from->GetNumberOfIds());

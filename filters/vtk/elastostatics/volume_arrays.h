@@ -23,7 +23,8 @@ namespace palpate::convert
 /// cells of lower dimension, which meshers write too, are left out.
 TetrahedralMesh tetrahedraOf(vtkUnstructuredGrid* grid);
 
-/// The boundary of a grid's tetrahedra, with the grid's point and field data.
+/// The boundary of a grid's tetrahedra, with the grid's point and field data. Where its cells have
+/// materials and its field data none, those in the mean are the boundary's: a unit for the model.
 vtkSmartPointer<vtkPolyData> boundaryOf(vtkUnstructuredGrid* grid);
 
 /// Materials as the cell arrays of a grid give them (see vtkFiniteElementGreensFunctions).

@@ -3,12 +3,16 @@
 
 #include "vtkBoundaryElementGreensFunctions.h"
 
+#include "array_names.h"
 #include "bem/boundary_element_method.h"
 #include "conversion.h"
 #include "model_arrays.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkBoundaryElementGreensFunctions);
 
@@ -44,6 +48,11 @@ void vtkBoundaryElementGreensFunctions::Compute(
 
 palpate::ElasticModel vtkBoundaryElementGreensFunctions::ModelOf(vtkPolyData* surface) const
 {
+  if (surface->GetPointData()->HasArray(palpate::arrays::HeldComponents))
+  {
+    throw std::invalid_argument("the point array 'HeldComponents' holds single components, which boundary "
+                                "elements cannot: choose finite elements, or take the array away");
+  }
   const palpate::ElasticModel model = palpate::convert::modelOf(surface, this->SmoothAngle,
     this->Domain == EXTERIOR       ? palpate::Domain::Exterior
       : this->Domain == UNSUPPORTED ? palpate::Domain::Unsupported

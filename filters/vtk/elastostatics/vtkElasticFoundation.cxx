@@ -4,6 +4,7 @@
 #include "vtkElasticFoundation.h"
 
 #include "array_names.h"
+#include "bem/interior_probes.h"
 #include "conversion.h"
 #include "greens/elastic_foundation.h"
 #include "model_arrays.h"
@@ -16,6 +17,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkElasticFoundation);
 
@@ -23,7 +25,20 @@ void vtkElasticFoundation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NormalStiffness: " << this->NormalStiffness << "\n"
-     << indent << "ShearStiffness: " << this->ShearStiffness << "\n";
+     << indent << "ShearStiffness: " << this->ShearStiffness << "\n"
+     << indent << "Probes: " << this->Probes.size() / 3 << "\n";
+}
+
+void vtkElasticFoundation::AddProbe(double x, double y, double z)
+{
+  this->Probes.insert(this->Probes.end(), { x, y, z });
+  this->Modified();
+}
+
+void vtkElasticFoundation::ClearProbes()
+{
+  this->Probes.clear();
+  this->Modified();
 }
 
 namespace
@@ -52,6 +67,27 @@ void addSprings(vtkPolyData* surface, Eigen::Matrix3Xd& springs)
       : Eigen::Matrix3d(values[0] * Eigen::Matrix3d::Identity());
   }
 }
+
+/// Rows of these places without the springs; null, for those that the model has, if there are none.
+std::shared_ptr<const palpate::ProbeRows> rowsOf(const palpate::GreensFunctions& greens,
+  const palpate::ElasticModel& model, const std::vector<double>& places,
+  const palpate::ProgressCallback& progress)
+{
+  if (places.empty())
+  {
+    return nullptr;
+  }
+  const Eigen::Map<const Eigen::Matrix3Xd> points(
+    places.data(), 3, static_cast<Eigen::Index>(places.size() / 3));
+  if (const auto& known = greens.info().probes)
+  {
+    constexpr double tolerance = 1e-6; // of the diagonal
+    return std::make_shared<const palpate::ProbeRows>(
+      known->at(points, tolerance * model.mesh().diagonal()));
+  }
+  return std::make_shared<const palpate::ProbeRows>(
+    palpate::probeRows(greens, model, points, progress));
+}
 } // namespace
 
 void vtkElasticFoundation::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
@@ -76,8 +112,11 @@ void vtkElasticFoundation::Compute(vtkPolyData* input, vtkPolyData* output, vtkI
       "a foundation lies under what is fixed, and no vertex of this model is: give its vertices springs");
   }
   addSprings(input, springs);
-  palpate::FoundedGreensFunctions founded = palpate::onElasticFoundation(*served.greens, model, springs,
-    [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
+  const palpate::Progress progress([this](double fraction, const char* stage)
+    { return this->ReportProgress(fraction, stage); });
+  auto probes = rowsOf(*served.greens, model, this->Probes, progress.part(0, 0.5).callback());
+  palpate::FoundedGreensFunctions founded = palpate::onElasticFoundation(
+    *served.greens, model, springs, std::move(probes), progress.part(0.5, 1).callback());
   vtkNew<vtkPolyData> arrays;
   convert::setGreensFunctions(arrays, founded.model, std::move(founded.greens));
   convert::removeResponses(output);

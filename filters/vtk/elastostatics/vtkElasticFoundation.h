@@ -22,6 +22,8 @@
 
 #include "vtkElastostaticAlgorithm.h"
 
+#include <vector>
+
 class PALPATEELASTOSTATICS_EXPORT vtkElasticFoundation : public vtkElastostaticAlgorithm
 {
 public:
@@ -46,6 +48,16 @@ public:
   vtkGetMacro(ShearStiffness, double);
   ///@}
 
+  ///@{
+  /**
+   * Places inside the body, m, whose displacement, strain and stress are to be known under any contact
+   * (vtkInteriorProbe, scenes). Of a model whose Green's functions have probes they must be some of these;
+   * else it must be homogeneous and isotropic. Without any, the model keeps the probes it has.
+   */
+  void AddProbe(double x, double y, double z);
+  void ClearProbes();
+  ///@}
+
 protected:
   vtkElasticFoundation() = default;
   ~vtkElasticFoundation() override = default;
@@ -57,6 +69,7 @@ private:
 
   double NormalStiffness = 0;
   double ShearStiffness = -1;
+  std::vector<double> Probes; // three each
 };
 
 #endif

@@ -6,6 +6,8 @@
 #include "conversion.h"
 #include "fem/finite_element_method.h"
 #include "filled_surface.h"
+#include "held_arrays.h"
+#include "inside_arrays.h"
 #include "model_arrays.h"
 #include "volume_arrays.h"
 
@@ -71,6 +73,7 @@ void vtkFiniteElementGreensFunctions::Compute(
   options.patchColumns = this->PatchColumns;
   options.reciprocal = this->Reciprocal;
   options.estimateError = this->EstimateError;
+  options.held = convert::heldDisplacementsOf(input, given.conditions());
   options.probes = Eigen::Map<const Eigen::Matrix3Xd>(
     this->Probes.data(), 3, static_cast<Eigen::Index>(this->Probes.size() / 3));
   const palpate::Progress progress([this](double fraction, const char* stage)
@@ -84,9 +87,15 @@ void vtkFiniteElementGreensFunctions::Compute(
     {
       result.info.diagnostics.warnings.push_back(warning);
     }
+    const bool isHomogeneous = result.info.homogeneous;
     convert::setGreensFunctions(arrays, model, std::move(result));
+    if (!isHomogeneous && options.held.cols() == 0)
+    {
+      convert::setSurfaceElasticity(arrays, body.materialsBehind(model.mesh()));
+    }
   };
 
+  const std::uint64_t ofHeld = palpate::heldFingerprint(options.held, given.fingerprint());
   std::optional<palpate::ElasticModel> ofFilled;
   vtkPolyData* computed = nullptr;
   if (vtkUnstructuredGrid* grid = vtkUnstructuredGrid::GetData(inputs[1]))
@@ -96,7 +105,7 @@ void vtkFiniteElementGreensFunctions::Compute(
     convert::CellMaterials materials = convert::materialsOf(grid, given.material());
     // Where cells have their own, the surface's Young's modulus is but a unit, and none that scales them.
     const double unit = materials.ofCell.empty() ? 0 : given.material().youngsModulus();
-    const std::uint64_t parts[] = { given.fingerprint(), convert::gridFingerprint(mesh, materials) };
+    const std::uint64_t parts[] = { ofHeld, convert::gridFingerprint(mesh, materials) };
     const std::uint64_t fingerprint =
       palpate::Fingerprint().add(parts, sizeof parts).add(&unit, sizeof unit).value();
     computed = this->Kept(fingerprint,
@@ -110,7 +119,7 @@ void vtkFiniteElementGreensFunctions::Compute(
   }
   else
   {
-    computed = this->Kept(given.fingerprint(),
+    computed = this->Kept(ofHeld,
       [&](vtkPolyData* arrays)
       {
         const convert::FilledSurface filled = convert::fillSurface(

@@ -5,7 +5,9 @@
  * @brief computes the Green's functions of a solid body by finite elements
  *
  * Input 0 is a closed triangle surface with the point array `BoundaryType` and the field data
- * `YoungsModulus` and `PoissonRatio` (vtkReferenceBoundaryConditions). Input 1 is optional: an
+ * `YoungsModulus` and `PoissonRatio` (vtkReferenceBoundaryConditions). An optional point array
+ * `HeldComponents` (uint8, 3: along x, y, z) holds single components of free vertices, as planes of
+ * symmetry do; what these bear is not known, so that the inside is seen by Probes alone. Input 1 is optional: an
  * unstructured grid of tetrahedra (quadratic ones count by their corners) whose boundary the surface is,
  * in any order of points. Its cell arrays may give each tetrahedron a material of its own, in SI units:
  * - `YoungsModulus` and `PoissonRatio`;

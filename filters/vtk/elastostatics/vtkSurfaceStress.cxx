@@ -14,8 +14,10 @@ vtkStandardNewMacro(vtkSurfaceStress);
 
 void vtkSurfaceStress::Compute(vtkPolyData* input, vtkPolyData* output, vtkInformationVector**)
 {
-  const palpate::convert::DeformedBody body = palpate::convert::deformedBodyOf(input);
-  const palpate::SurfaceFields fields =
-    palpate::surfaceFields(body.model, body.displacement, body.traction);
+  std::vector<palpate::Elasticity> materials;
+  const palpate::convert::DeformedBody body = palpate::convert::deformedSurfaceOf(input, materials);
+  const palpate::SurfaceFields fields = materials.empty()
+    ? palpate::surfaceFields(body.model, body.displacement, body.traction)
+    : palpate::surfaceFields(body.model, materials, body.displacement, body.traction);
   palpate::convert::setStresses(output->GetCellData(), fields.gradient, fields.stress);
 }

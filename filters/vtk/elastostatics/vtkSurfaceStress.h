@@ -5,7 +5,7 @@
  * @brief strain and stress at the surface of a pressed body
  *
  * Input: a model with `Displacement` and `Traction` at its points, as vtkPointContact and
- * vtkCapacitanceSolve leave them, of one isotropic material. Output: the same with the cell arrays
+ * vtkCapacitanceSolve leave them: a solid of any materials, a cavity or a half-space. Output: the same with the cell arrays
  * `Strain` and `Stress` (six components: xx, yy, zz, xy, yz, xz; Pa), `VonMisesStress` and
  * `PrincipalStress` (three, the largest first; Pa), constant in each triangle. Along the surface strains
  * are those of the displacements, out of it those that the traction asks for
