@@ -37,8 +37,10 @@ void addFiles(CLI::App& command, Options& o) {
 void addQuestion(CLI::App& command, AccuracyOptions& o) {
   command
       .add_option("input", o.input,
-                  "A surface with support and material; a model counts as its surface. For "
-                  "identification also a volume mesh (.vtu), taken as it is")
+                  "A surface with support and material; a model counts as its surface. With "
+                  "--method fem also a volume mesh (.vtu), whose cells may be of several "
+                  "materials: each is cut into eight from level to level, and taken as it is for "
+                  "identification")
       ->required();
   command
       .add_option("--method", o.method,
@@ -241,6 +243,7 @@ void addAccuracy(CLI::App& program) {
       "  palpate accuracy part.vtp --query force --depth 0.001 --subdivision flat\n"
       "  palpate accuracy bonnet.vtp --method shell --thickness 0.001\n"
       "  palpate accuracy patch.vtp --method halfspace --reference boussinesq\n"
+      "  palpate accuracy layers.vtu --method fem --levels 1 2 3\n"
       "  palpate accuracy part.vtp --query identification --rig part_as_it_is.vtp");
   command->callback([options] {
     requireSensibleFiles(*options);

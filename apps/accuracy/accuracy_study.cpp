@@ -7,6 +7,8 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkReferenceBoundaryConditions.h>
+#include <vtkSolidBoundary.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,7 @@
 #include "accuracy/points.h"
 #include "accuracy/reference.h"
 #include "accuracy/sweep.h"
+#include "file_kinds.h"
 #include "model/elasticity.h"
 #include "progress_bar.h"
 #include "sentence.h"
@@ -30,11 +33,23 @@ namespace {
 
 constexpr double kSourceDistance = 0.75;  ///< diagonals of the body from its middle
 
-vtkSmartPointer<vtkPolyData> surfaceOf(const AccuracyOptions& options) {
+/// The body on the surface of a file, or of its tetrahedra.
+BodyLevels bodyOf(const AccuracyOptions& options) {
+  const int finest = std::max(*std::max_element(options.levels.begin(), options.levels.end()),
+                              options.referenceLevel);
   vtkNew<vtkReferenceBoundaryConditions> conditions;
-  conditions->SetInputData(readSurface(options.input));
   options.support.applyTo(conditions);
-  return run(conditions);
+  if (!isVolumeFile(options.input)) {
+    conditions->SetInputData(readSurface(options.input));
+    return BodyLevels(run(conditions), nullptr, finest, options);
+  }
+  if (options.method != "fem")
+    throw std::invalid_argument(options.input + " is a volume mesh: add --method fem");
+  const auto volume = readVolume(options.input);
+  vtkNew<vtkSolidBoundary> boundary;
+  boundary->SetInputData(volume);
+  conditions->SetInputData(run(boundary));
+  return BodyLevels(run(conditions), volume, finest, options);
 }
 
 /// Whether a reference is a file of compliances.
@@ -62,7 +77,7 @@ std::vector<std::string> chosenKnobs(const AccuracyOptions& options, const BodyL
                    " against the reference " + options.reference);
   if (!options.knobs.empty()) return options.knobs;
   if (!hasSharpEdges) drop("edges");
-  if (body.material().poissonRatio() >= Elasticity::kSplitFrom) drop("element");
+  if (body.isNearlyIncompressible()) drop("element");
   return known;
 }
 
@@ -114,9 +129,7 @@ class AccuracyRun {
   explicit AccuracyRun(const AccuracyOptions& options)
       : options_(options),
         levels_(options.levels),
-        body_(surfaceOf(options),
-              std::max(*std::max_element(levels_.begin(), levels_.end()), options.referenceLevel),
-              options),
+        body_(bodyOf(options)),
         progress_([](double fraction, const char* stage) {
           drawProgress(fraction, stage);
           return !isInterrupted();

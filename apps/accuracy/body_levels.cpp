@@ -7,8 +7,13 @@
 #include <model_arrays.h>
 #include <shell_arrays.h>
 #include <smooth_patch_arrays.h>
+#include <volume_arrays.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "mesh/smooth_patches.h"
+#include "mesh/tetrahedral_refinement.h"
 #include "model/support.h"
 #include "sentence.h"
 #include "shell/shell_refinement.h"
@@ -25,12 +30,16 @@ Domain domainOf(Method method) {
                                        : Domain::Interior;
 }
 
-Subdivision subdivisionOf(const AccuracyOptions& options, Domain domain) {
+Subdivision subdivisionOf(const AccuracyOptions& options, Domain domain, bool isFilled) {
   if (options.subdivision.empty())
-    return domain == Domain::Interior ? Subdivision::Loop
-           : domain == Domain::Shell  ? Subdivision::Curved
-                                      : Subdivision::Flat;
+    return isFilled                     ? Subdivision::Flat
+           : domain == Domain::Interior ? Subdivision::Loop
+           : domain == Domain::Shell    ? Subdivision::Curved
+                                        : Subdivision::Flat;
   const Subdivision chosen = subdivisionNamed(options.subdivision);
+  if (isFilled && chosen != Subdivision::Flat)
+    refuse("--subdivision ", options.subdivision,
+           " would move the surface off its tetrahedra: of a volume mesh it is flat");
   if (domain != Domain::Interior && chosen == Subdivision::Loop)
     refuse("--subdivision loop is one of closed surfaces: choose flat or curved with --method ",
            options.method);
@@ -39,9 +48,10 @@ Subdivision subdivisionOf(const AccuracyOptions& options, Domain domain) {
 
 }  // namespace
 
-BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& options)
+BodyLevels::BodyLevels(vtkPolyData* surface, vtkUnstructuredGrid* volume, int levels,
+                       const AccuracyOptions& options)
     : domain_(domainOf(methodNamed(options.method))) {
-  const Subdivision subdivision = subdivisionOf(options, domain_);
+  const Subdivision subdivision = subdivisionOf(options, domain_, volume != nullptr);
   const ElasticModel first = convert::modelOf(surface, kSmoothAngle, domain_);
   const bool isInherited = !isSolid() || subdivision == Subdivision::Curved ||
                            convert::hasGivenPatches(surface, first.mesh());
@@ -51,6 +61,7 @@ BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& 
     levels_[0].thickness = convert::shellThicknessOf(surface, first.mesh(), options.thickness);
     levels_[0].held = convert::heldComponentsOf(surface, first.conditions(), !options.hinged);
   }
+  if (volume) fill(volume);
   while (count() < levels) {
     const Level& coarse = levels_.back();
     SubdivisionLevel made = subdivide(*coarse.mesh, coarse.patches, subdivision);
@@ -64,8 +75,34 @@ BodyLevels::BodyLevels(vtkPolyData* surface, int levels, const AccuracyOptions& 
       fine.thickness = refineThickness(fine.made, coarse.mesh->triangles(), coarse.thickness);
       fine.held = refineHeldComponents(fine.made, coarse.held);
     }
+    if (isFilled())
+      fine.tetrahedra =
+          std::make_shared<const TetrahedralMesh>(refineTetrahedra(*coarse.tetrahedra));
     levels_.push_back(std::move(fine));
   }
+}
+
+void BodyLevels::fill(vtkUnstructuredGrid* volume) {
+  auto mesh = std::make_shared<const TetrahedralMesh>(convert::tetrahedraOf(volume));
+  convert::CellMaterials cells = convert::materialsOf(volume, material_);
+  levels_[0].tetrahedra = std::move(mesh);
+  materials_ = std::move(cells.materials);
+  materialOfCell_ = std::move(cells.ofCell);
+}
+
+SolidBody BodyLevels::filling(int level) const {
+  const TetrahedralMesh& mesh = *at(level).tetrahedra;
+  std::vector<int> materialOfCell(materialOfCell_.empty() ? 0 : mesh.cellCount());
+  const int perCell = mesh.cellCount() / at(1).tetrahedra->cellCount();  // in the order of level 1
+  for (std::size_t cell = 0; cell < materialOfCell.size(); ++cell)
+    materialOfCell[cell] = materialOfCell_[cell / perCell];
+  return SolidBody(this->mesh(level), mesh, materials_, std::move(materialOfCell));
+}
+
+bool BodyLevels::isNearlyIncompressible() const {
+  if (!isFilled()) return material_.poissonRatio() >= Elasticity::kSplitFrom;
+  return std::any_of(materials_.begin(), materials_.end(),
+                     [](const Elasticity& material) { return material.isSplit(); });
 }
 
 bool BodyLevels::hasSharpEdges(int level) const {

@@ -36,12 +36,16 @@ ComputedGreensFunctions matrixOf(const BodyLevels& body, const Query& query, con
       return computeShellGreensFunctions(model, body.shell(setting.level, model),
                                          {query.columns(setting), setting.reciprocal}, progress);
     case Method::QuadraticTetrahedra:
-    case Method::LinearTetrahedra:
-      return greensByTetrahedra(model,
-                                setting.method == Method::LinearTetrahedra
-                                    ? SolidElement::Linear
-                                    : SolidElement::Quadratic,
-                                setting.reciprocal, query.columns(setting), progress);
+    case Method::LinearTetrahedra: {
+      const SolidElement element = setting.method == Method::LinearTetrahedra
+                                       ? SolidElement::Linear
+                                       : SolidElement::Quadratic;
+      if (body.isFilled())
+        return greensOfFilling(model, body.filling(setting.level), element, setting.reciprocal,
+                               query.columns(setting), progress);
+      return greensByTetrahedra(model, element, setting.reciprocal, query.columns(setting),
+                                progress);
+    }
     default:
       return byBoundaryElements(model, query, setting, threads, progress);
   }

@@ -83,7 +83,7 @@ class Knobs {
         "linear", [](Setting& setting) { setting.method = Method::LinearTetrahedra; }, false);
   }
 
-  bool canBeLinear() const { return body_.material().poissonRatio() < Elasticity::kSplitFrom; }
+  bool canBeLinear() const { return !body_.isNearlyIncompressible(); }
 
   void addMethods() {
     addOnLevels(

@@ -12,6 +12,17 @@ bool canUseTetrahedra() {
   return SparseFactorization::isAvailable();
 }
 
+ComputedGreensFunctions greensOfFilling(const ElasticModel& model, const SolidBody& body,
+                                        SolidElement element, bool reciprocal,
+                                        const std::vector<int>& columns,
+                                        const ProgressCallback& progress) {
+  FiniteElementOptions options;
+  options.element = element;
+  options.reciprocal = reciprocal;
+  options.columns = columns;
+  return computeFiniteElementGreensFunctions(model, body, options, progress);
+}
+
 ComputedGreensFunctions greensByTetrahedra(const ElasticModel& model, SolidElement element,
                                            bool reciprocal, const std::vector<int>& columns,
                                            const ProgressCallback& callback) {
@@ -19,13 +30,9 @@ ComputedGreensFunctions greensByTetrahedra(const ElasticModel& model, SolidEleme
   const Tetrahedralization filled =
       tetrahedralize(model.mesh(), 0, progress.part(0, 0.2).callback());
   const ElasticModel solid = onBoundary(model, filled);
-  FiniteElementOptions options;
-  options.element = element;
-  options.reciprocal = reciprocal;
-  options.columns = columns;
-  ComputedGreensFunctions result = computeFiniteElementGreensFunctions(
-      solid, SolidBody(solid.mesh(), filled.mesh, {Elasticity(model.material())}), options,
-      progress.part(0.2, 1).callback());
+  ComputedGreensFunctions result =
+      greensOfFilling(solid, SolidBody(solid.mesh(), filled.mesh, {Elasticity(model.material())}),
+                      element, reciprocal, columns, progress.part(0.2, 1).callback());
   GreensFunctionsInfo& info = result.info;
   const Eigen::VectorXd ratio =
       model.mesh().vertexAreas().cwiseQuotient(solid.mesh().vertexAreas());

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "fem/solid_body.h"
 #include "fem/solid_elements.h"
 #include "greens/computed_greens_functions.h"
 #include "model/elastic_model.h"
@@ -22,5 +23,11 @@ bool canUseTetrahedra();
 ComputedGreensFunctions greensByTetrahedra(const ElasticModel& model, SolidElement element,
                                            bool reciprocal, const std::vector<int>& columns,
                                            const ProgressCallback& progress);
+
+/// Of a body whose tetrahedra are given.
+ComputedGreensFunctions greensOfFilling(const ElasticModel& model, const SolidBody& body,
+                                        SolidElement element, bool reciprocal,
+                                        const std::vector<int>& columns,
+                                        const ProgressCallback& progress);
 
 }  // namespace palpate::app

@@ -5,16 +5,19 @@
 import csv
 import functools
 import math
+import os
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import palpate
 from palpate.arrays import as_vtk
-from support.surfaces import PROGRAM, cube, polydata, sphere
+from support.solids import bar, boundary_of, set_cells
+from support.surfaces import PROGRAM, cube, points_of, polydata, sphere
 
 FOLDER = tempfile.TemporaryDirectory()
 MATERIAL = ("--young", 2, "--poisson", 0.3)
@@ -47,6 +50,20 @@ def vault():
     points, triangles = square(4)
     angle = 1.2 * points[:, 0]
     return polydata(np.column_stack([np.sin(angle), points[:, 1], np.cos(angle)]), triangles)
+
+
+def layers(young=(1.0, 20.0)):
+    """A file of a block of 1 by 1 by 2 of two materials, the upper half of the second."""
+    grid = bar((2, 2, 4))
+    heights = np.array([np.mean([grid.GetPoint(grid.GetCell(c).GetPointId(k))[2] for k in range(4)])
+                        for c in range(grid.GetNumberOfCells())])
+    set_cells(grid, YoungsModulus=np.where(heights > 1, young[1], young[0]),
+              PoissonRatio=np.full(len(heights), 0.3))
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(os.path.join(FOLDER.name, f"layers{young[0]}_{young[1]}.vtu"))
+    writer.SetInputData(grid)
+    writer.Write()
+    return writer.GetFileName(), grid
 
 
 SURFACES = {"square": lambda: polydata(*square(4)), "patch": lambda: polydata(*square(8)), "tapered": tapered,
@@ -85,6 +102,59 @@ def errors(table, knob):
 
 def knobs(table):
     return list(dict.fromkeys(row["knob"] for row in table))
+
+
+class SeveralMaterials(unittest.TestCase):
+    ON_TOP = ("--method", "fem", "--fix-half-space", 0, 0, 0.001, 0, 0, 1, "--at", 0.5, 0.5, 2, "--radius", 0.6,
+              "--repeats", 2)
+
+    def studied(self, path, *arguments):
+        table = Path(FOLDER.name) / "layers.csv"
+        done = accuracy(path, *self.ON_TOP, *arguments, "--csv", table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(table, newline="", encoding="utf-8") as lines:
+            return list(csv.DictReader(lines)), done.stdout
+
+    def test_are_studied_on_their_tetrahedra_level_by_level(self):
+        path, _ = layers()
+        table, printed = self.studied(path, "--levels", 1, 2, 3, "--knobs", "level", "element")
+        self.assertIn("quadratic tetrahedra", printed)
+        self.assertEqual([row["vertices"] for row in of_knob(table, "level")], ["42", "162", "642"])
+        found = errors(table, "level")
+        self.assertTrue((found[1:] < 0.7 * found[:-1]).all(), found)
+        self.assertTrue((errors(table, "element") > found).all())
+
+    def test_are_those_of_the_cells_on_every_level(self):
+        # As the package has them on level 1; a column of springs in series on the finer, too.
+        path, grid = layers()
+        fixed = points_of(boundary_of(grid))[:, 2] < 0.001
+        model = palpate.precompute(grid, fixed=fixed, method="fem", estimate_error=False)
+        top = int(np.flatnonzero((np.abs(points_of(model) - (0.5, 0.5, 2)) < 1e-9).all(axis=1))[0])
+        known = np.column_stack([
+            palpate.array(palpate.press(model, (0.5, 0.5, 2), force=axis, radius=0.6), "Displacement")[top]
+            for axis in np.eye(3)])
+        reference = Path(FOLDER.name) / "known.csv"
+        reference.write_text(",".join(map(repr, map(float, (0.5, 0.5, 2, *known.ravel())))) + "\n")
+        options = ("--method", "fem", "--fix-half-space", 0, 0, 0.001, 0, 0, 1, "--radius", 0.6, "--repeats", 2,
+                   "--reference", reference, "--knobs", "level", "--levels", 1, 2)
+        table = Path(FOLDER.name) / "series.csv"
+        for young, low, high in (((1.0, 20.0), 0, 0.2), ((20.0, 1.0), 0.3, 10)):
+            done = accuracy(layers(young)[0], *options, "--csv", table)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(table, newline="", encoding="utf-8") as lines:
+                found = [float(row["error"]) for row in csv.DictReader(lines)]
+            self.assertTrue(all(low <= error < high for error in found), found)
+            if low == 0:
+                self.assertLess(found[0], 1e-9)
+
+    def test_that_cannot_be_studied_are_refused(self):
+        path, _ = layers()
+        held = ("--fix-half-space", 0, 0, 0.001, 0, 0, 1)
+        for arguments, sentence in (((), "add --method fem"),
+                                    (("--method", "fem", "--subdivision", "loop"), "off its tetrahedra")):
+            refused = accuracy(path, *held, *arguments)
+            self.assertNotEqual(refused.returncode, 0)
+            self.assertIn(sentence, refused.stderr)
 
 
 class Shell(unittest.TestCase):
