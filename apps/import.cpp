@@ -25,7 +25,7 @@ struct Options {
   std::string order = "by-node", lengthUnit = "m", forceUnit = "N";
   SupportOptions support;
   double nodeTolerance = 1e-5, young = 0;
-  bool raw = false;
+  bool raw = false, unsupported = false;
   std::vector<vtkIdType> columns;
 };
 
@@ -81,6 +81,8 @@ void addOptions(CLI::App& command, Options& o) {
       "of a body of this size and compliance");
   command.add_option("--columns", o.columns, "Keep only these vertices' Green's functions");
   command.add_flag("--raw", o.raw, "Do not symmetrise a compliance");
+  command.add_flag("--unsupported", o.unsupported,
+                   "A loose body's stiffness is of a body that nothing holds");
   command.footer(
       "Vertices that are fixed but that the matrix does not have are held where it is from: they "
       "do\n"
@@ -110,6 +112,7 @@ void set(vtkImportedGreensFunctions* filter, const Options& o) {
   filter->SetNodeTolerance(o.nodeTolerance);
   filter->SetYoungsModulus(o.young);
   filter->SetReciprocal(!o.raw);
+  filter->SetUnsupported(o.unsupported);
   if (o.columns.empty()) return;
   vtkNew<vtkIdTypeArray> nodes;
   for (vtkIdType node : o.columns) nodes->InsertNextValue(node);

@@ -199,7 +199,7 @@ constexpr OptionOf kOptionsOf[] = {{"--tolerance", "bem"},
                                    {"--support-patch", "bem"},
                                    {"--no-estimate", "bem fem"},
                                    {"--collocation", "bem"},
-                                   {"--domain", "bem fem"},
+                                   {"--domain", "bem fem shell"},
                                    {"--edge-length", "bem fem"},
                                    {"--support-columns", "bem fem shell"},
                                    {"--smooth-angle", "bem fem"},
@@ -254,6 +254,7 @@ vtkSmartPointer<vtkGreensFunctionsAlgorithm> thinShell(const Options& o) {
   auto filter = vtkSmartPointer<vtkShellGreensFunctions>::New();
   filter->SetThickness(o.thickness);
   filter->SetClamped(!o.hinged);
+  filter->SetUnsupported(o.domain == "unsupported");
   filter->SetEstimateError(o.estimate);
   filter->SetReciprocal(!o.raw);
   return filter;

@@ -100,7 +100,7 @@ def import_compliance(surface, compliance, nodes=None, *, fixed=None, order="by-
 
 def import_stiffness(surface, stiffness, nodes=None, *, fixed=None, order="by-node",
                      length_unit="m", force_unit="N", node_tolerance=1e-5, mapping=None, name=None,
-                     young=None, columns=None, progress=None):
+                     young=None, columns=None, unsupported=False, progress=None):
     """Make Green's functions of a stiffness matrix, such as a superelement's, by static condensation.
 
     Nodes that are no vertices of the surface, rotations and inner coordinates bear no force: they are
@@ -113,6 +113,9 @@ def import_stiffness(surface, stiffness, nodes=None, *, fixed=None, order="by-no
     stiffness : array_like, str or path-like
         Forces per displacement, as `compliance` of `import_compliance`; of a body that is held, or of a
         loose one, of which `fixed` vertices must take all rigid motions.
+    unsupported : bool
+        Leave a loose body in one piece, all of whose vertices are nodes of the matrix, as one that nothing
+        holds: see `domain` of `precompute`.
     nodes, fixed, order, length_unit, force_unit, node_tolerance, mapping, name, young, columns, progress
         As in `import_compliance`.
 
@@ -155,11 +158,11 @@ def import_stiffness(surface, stiffness, nodes=None, *, fixed=None, order="by-no
     return imported("stiffness", surface, stiffness, nodes, fixed=fixed, order=order,
                     length_unit=length_unit, force_unit=force_unit, node_tolerance=node_tolerance,
                     mapping=mapping, name=name, young=young, columns=columns, reciprocal=True,
-                    progress=progress)
+                    progress=progress, unsupported=flag(unsupported, "unsupported"))
 
 
 def imported(kind, surface, matrix, nodes, *, fixed, order, length_unit, force_unit, node_tolerance,
-             mapping, name, young, columns, reciprocal, progress):
+             mapping, name, young, columns, reciprocal, progress, unsupported=False):
     """What both have in common."""
     filter = vtkImportedGreensFunctions()
     filter.SetKind(KINDS[kind])
@@ -179,6 +182,7 @@ def imported(kind, surface, matrix, nodes, *, fixed, order, length_unit, force_u
     filter.SetDofOrder(choice(order, ORDERS, "order"))
     filter.SetNodeTolerance(number(node_tolerance, "node_tolerance"))
     filter.SetReciprocal(flag(reciprocal, "reciprocal"))
+    filter.SetUnsupported(unsupported)
     if young is not None:
         filter.SetYoungsModulus(positive(young, "Young's modulus"))
     if columns is not None:

@@ -86,7 +86,7 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
         Vertices whose Green's functions are computed, by number or as a mask of n booleans; all free
         ones by default. Moving or releasing fixed vertices needs theirs, too.
     domain : {"interior", "exterior", "unsupported"}
-        Material inside the surface, or everywhere outside it, or (of finite elements, too) inside a
+        Material inside the surface, or everywhere outside it, or (of finite elements and shells, too) inside a
         body that nothing holds: loads are balanced by tractions that vary like a rigid motion over the
         whole surface, and displacements counted from the body's mean motion. `BoundaryType` is not read
         then.
@@ -197,6 +197,7 @@ def precompute(surface, young=None, poisson=None, fixed=None, method="bem", prec
     elif method == "shell":
         greens = vtkShellGreensFunctions()
         greens.SetClamped(flag(clamped, "clamped"))
+        greens.SetUnsupported(unsupported(domain, method))
         greens.SetEstimateError(flag(False if estimate_error is None else estimate_error, "estimate_error"))
     else:
         greens = vtkHalfSpaceGreensFunctions()
@@ -270,7 +271,7 @@ METHODS_OF = {
     "threads": ("bem", "halfspace"), "smooth_angle": ("bem", "fem"), "patch_columns": ("bem", "fem"),
     "estimate_error": ("bem", "fem", "shell"), "volume": ("fem",), "element": ("fem",), "cell_size": ("fem",),
     "probes": ("fem",), "edge_length": ("bem", "fem"),
-    "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem"),
+    "thickness": ("shell",), "clamped": ("shell",), "domain": ("bem", "fem", "shell"),
 }
 
 
@@ -299,13 +300,18 @@ def set_thickness(greens, surface, thickness):
     surface.GetCellData().RemoveArray(THICKNESS)
 
 
+def unsupported(domain, method):
+    """Whether nothing holds a body of a method that has no exterior domains."""
+    if choice(domain, DOMAINS, "domain") == DOMAINS["exterior"]:
+        raise Error(f"domain='exterior' makes no sense for method='{method}': leave it out")
+    return domain == "unsupported"
+
+
 def finite_elements(volume, element, cell_size, probes, domain, smooth_angle, patch_columns, estimate_error,
                     **_):
     """The filter of finite elements, but for its surface and columns."""
     filter = vtkFiniteElementGreensFunctions()
-    if choice(domain, DOMAINS, "domain") == DOMAINS["exterior"]:
-        raise Error("domain='exterior' makes no sense for method='fem': leave it out")
-    filter.SetUnsupported(domain == "unsupported")
+    filter.SetUnsupported(unsupported(domain, "fem"))
     if probes is not None:
         places = listed(probes, "probes")
         for place in vectors(places, len(places), "probes"):

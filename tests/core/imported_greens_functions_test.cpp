@@ -11,6 +11,7 @@
 
 #include "contact/capacitance_solver.h"
 #include "contact/surface_stiffness.h"
+#include "greens/rigid_motions.h"
 #include "linear_algebra/sparse_factorization.h"
 #include "support/given_bodies.h"
 #include "support/half_space.h"
@@ -244,6 +245,44 @@ TEST(ImportedGreensFunctions, ALargeSparseStiffnessIsCondensedAsADenseOne) {
              dense = imported(model, MatrixKind::Stiffness, stiffness, nodesAt(solid.points));
   const std::vector<int> columns = {200, 300, 400};
   EXPECT_LE(relativeDifference(gathered(*sparse, columns), gathered(*dense, columns)), 1e-10);
+}
+
+TEST(ImportedGreensFunctions, OfAnUnsupportedBodyUndoItsStiffness) {
+  const Solid solid = cubeOfFive();
+  const Eigen::MatrixXd stiffness = trussStiffness(solid);
+  const Shape shape = boundaryOf(solid.mesh());
+  const ElasticModel model = givenModel(shape);
+  ImportOptions options;
+  options.unsupported = true;
+  const ImportedGreensFunctions imported = importGreensFunctions(
+      model, MatrixKind::Stiffness, given(stiffness), nodesAt(solid.points), options);
+  const Eigen::VectorXd& areas = imported.model.mesh().vertexAreas();
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(model.mesh());
+  Eigen::MatrixXd tractions(motions.rows(), 3);
+  for (Eigen::Index i = 0; i < tractions.size(); ++i) tractions(i) = std::sin(1.3 * i);
+  tractions -= motions * (meanRigidMotion(areas, motions) * tractions).eval();
+  const Eigen::Map<const Eigen::MatrixXd> xi(imported.greens.matrix.data(), motions.rows(),
+                                             motions.rows());
+  const Eigen::MatrixXd moved = xi * tractions;
+  Eigen::MatrixXd forces = tractions;
+  for (int v = 0; v < areas.size(); ++v) forces.middleRows<3>(3 * v) *= areas[v];
+  EXPECT_LT((stiffness * moved - forces).norm(), 1e-10 * forces.norm());
+  EXPECT_LT((meanRigidMotion(areas, motions) * moved).norm(), 1e-10 * moved.norm());
+  EXPECT_LT((xi * motions).norm(), 1e-10 * moved.norm());
+  EXPECT_NE(imported.greens.info.source.find("unsupported"), std::string::npos);
+
+  const auto refused = [&](const ElasticModel& of, MatrixKind kind, const Eigen::MatrixXd& matrix,
+                           const char* sentence) {
+    return isRefused(
+        [&] { importGreensFunctions(of, kind, given(matrix), nodesAt(solid.points), options); },
+        sentence);
+  };
+  Eigen::MatrixXd held = stiffness;
+  held.topLeftCorner<3, 3>().diagonal().array() += 1;
+  EXPECT_TRUE(refused(model, MatrixKind::Stiffness, held, "resists rigid motions"));
+  EXPECT_TRUE(refused(model, MatrixKind::Compliance, held, "by its stiffness"));
+  EXPECT_TRUE(refused(givenModel(shape, [](const Eigen::Vector3d& x) { return x.z() < 1e-9; }),
+                      MatrixKind::Stiffness, stiffness, "leave out what fixes them"));
 }
 
 TEST(ImportedGreensFunctions, RawComplianceStaysAsItIs) {

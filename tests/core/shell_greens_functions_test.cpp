@@ -9,6 +9,9 @@
 #include <Eigen/Dense>
 
 #include "contact/capacitance_solver.h"
+#include "greens/elastic_foundation.h"
+#include "greens/gravity.h"
+#include "greens/rigid_motions.h"
 #include "shell/shell_curvature.h"
 #include "shell/shell_element.h"
 #include "support/refusals.h"
@@ -300,6 +303,88 @@ TEST(ShellGreensFunctions, OfAClampedEdgeLetOneOfItsVerticesGo) {
   values.given.col(24) = forces.col(24) / problem.mesh().vertexAreas()[24];
   const BoundarySolution solution = solver.solve(values);
   EXPECT_LT((solution.displacement - expected).norm(), 1e-8 * expected.norm());
+}
+
+/// Loads that balance each other, and any.
+Eigen::MatrixXd someLoads(const ElasticModel& model, bool isBalanced) {
+  const SurfaceMesh& mesh = model.mesh();
+  Eigen::MatrixXd tractions = Eigen::MatrixXd::Zero(3 * mesh.vertexCount(), 2);
+  for (int v = 0; v < mesh.vertexCount(); ++v)
+    for (int k = 0; k < 3; ++k)
+      for (int load = 0; load < 2; ++load)
+        tractions(3 * v + k, load) = std::sin(1.7 * v + 2.3 * k + load);
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh);
+  if (isBalanced)
+    tractions -= motions * (meanRigidMotion(mesh.vertexAreas(), motions) * tractions).eval();
+  return tractions;
+}
+
+TEST(FreeShell, DeformsAsOneThatIsHeldAnywhereUnderLoadsThatBalance) {
+  const Shape shape = saddle(5);
+  const ElasticModel loose = shellModel(shape, [](const auto&) { return false; });
+  const ShellProblem held = shellProblem(shape, [&](const Eigen::Vector3d& x) {
+    return x == shape.points.col(7);  // clamped there
+  });
+  const Eigen::Matrix3Xd thickness = thicknessOfVertices(
+      loose.mesh(), Eigen::VectorXd::Constant(loose.mesh().vertexCount(), 0.01));
+  const auto greens = computeFreeShellGreensFunctions(loose, thickness).take();
+  EXPECT_TRUE(greens->info().conditions.fixedNodes().empty());
+  EXPECT_LT(greens->info().diagnostics.reciprocityDefect, 1e-8);
+  const Eigen::VectorXd& areas = loose.mesh().vertexAreas();
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(loose.mesh()),
+                        loads = someLoads(loose, true);
+  Eigen::MatrixXd expected = allOf(held);
+  for (int k = 0; k < 3; ++k) expected.row(3 * 7 + k).setZero();  // reactions
+  Eigen::MatrixXd driven = loads;
+  driven.middleRows<3>(3 * 7).setZero();  // forces there are borne by the clamp
+  expected = (expected * driven).eval();
+  expected -= motions * (meanRigidMotion(areas, motions) * expected).eval();
+  const Eigen::MatrixXd xi = denseMatrix(*greens), found = xi * loads;
+  EXPECT_LT((found - expected).norm(), 1e-7 * expected.norm());
+  EXPECT_LT((xi * motions).norm(), 1e-8 * found.norm());  // rigid loads do nothing
+  EXPECT_LT((xi * someLoads(loose, false) - found).norm(), 1e-8 * found.norm());
+}
+
+TEST(FreeShell, OnSpringsBearsItsWeight) {
+  const Shape shape = saddle(5);
+  const ElasticModel loose = shellModel(shape, [](const auto&) { return false; });
+  const SurfaceMesh& mesh = loose.mesh();
+  const Eigen::Matrix3Xd thickness =
+      thicknessOfVertices(mesh, Eigen::VectorXd::Constant(mesh.vertexCount(), 0.01));
+  const auto greens = computeFreeShellGreensFunctions(loose, thickness).take();
+  Eigen::Matrix3Xd springs = Eigen::Matrix3Xd::Zero(3, 3 * mesh.vertexCount());
+  for (int v : {0, 3, 20, 35}) springs.middleCols<3>(3 * v).diagonal().setConstant(1e-4);
+  const auto founded = onElasticFoundation(*greens, loose, springs).greens.take();
+  const Eigen::Vector3d weight(0.1, 0.2, -1);
+  const Eigen::Matrix3Xd sunk = gravityDisplacement(*founded, mesh, loose.smoothPatches(), weight);
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force, load = force, turn = force;
+  for (int v = 0; v < mesh.vertexCount(); ++v) {
+    const Eigen::Vector3d at = springs.middleCols<3>(3 * v) * sunk.col(v),
+                          own = 0.01 * mesh.vertexAreas()[v] * weight;
+    force += at;
+    load += own;
+    moment += mesh.points().col(v).cross(at);
+    turn += mesh.points().col(v).cross(own);
+  }
+  EXPECT_LT((force - load).norm(), 1e-8 * load.norm());
+  EXPECT_LT((moment - turn).norm(), 1e-8 * load.norm());
+  EXPECT_TRUE(isRefused([&] { gravityDisplacement(*greens, mesh, loose.smoothPatches(), weight); },
+                        "falls freely"));
+}
+
+TEST(FreeShell, IsRefusedWhatItCannotHave) {
+  const Shape shape = saddle(3);
+  const ElasticModel loose = shellModel(shape, [](const auto&) { return false; });
+  const Eigen::Matrix3Xd thickness = thicknessOfVertices(
+      loose.mesh(), Eigen::VectorXd::Constant(loose.mesh().vertexCount(), 0.01));
+  const auto refused = [&](const ShellOptions& options, const char* sentence) {
+    return isRefused([&] { computeFreeShellGreensFunctions(loose, thickness, options); }, sentence);
+  };
+  EXPECT_TRUE(refused({{1, 2}, true, false}, "leave the columns out"));
+  EXPECT_TRUE(refused({{}, true, true}, "leave the estimate out"));
+  const ElasticModel held = shellModel(shape, leftEdge);
+  EXPECT_TRUE(isRefused([&] { computeFreeShellGreensFunctions(held, thickness); },
+                        "leave all vertices free"));
 }
 
 }  // namespace

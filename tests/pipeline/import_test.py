@@ -54,6 +54,43 @@ def matrix_of(model):
     return palpate.greens_functions(model)[(3 * nodes[:, None] + np.arange(3)).ravel()]
 
 
+class Unsupported(Refusals):
+    def test_a_loose_bodys_stiffness_is_one_that_nothing_holds(self):
+        surface = sphere(1)
+        points = points_of(surface)
+        n = len(points)
+        stiffness = np.zeros((3 * n, 3 * n))  # springs between all
+        for i in range(n):
+            for j in range(i):
+                along = points[i] - points[j]
+                spring = np.outer(along, along) / np.linalg.norm(along) ** 3
+                pair = np.zeros((n, n))
+                pair[i, i] = pair[j, j] = 1
+                pair[i, j] = pair[j, i] = -1
+                stiffness += np.kron(pair, spring)
+        model = palpate.import_stiffness(surface, stiffness, unsupported=True)
+        areas = palpate.array(model, "VertexArea")
+        forces = np.zeros((n, 3))
+        top, bottom = points[:, 2].argmax(), points[:, 2].argmin()
+        forces[top, 2], forces[bottom, 2] = -1, 1
+        pressed = palpate.solve(model, [], np.zeros((0, 3)), free_tractions=forces / areas[:, None])
+        moved = palpate.array(pressed, "Displacement")
+        np.testing.assert_allclose(stiffness @ moved.ravel(), forces.ravel(), atol=1e-9)
+        springs = np.where(points[:, 2] < 0, 0.1, 0.0)
+        pushed = palpate.press(palpate.foundation(model, springs=springs), points[top], force=(0, 0, -1))
+        np.testing.assert_allclose(springs @ palpate.array(pushed, "Displacement"), (0, 0, -1), atol=1e-6)
+        with tempfile.TemporaryDirectory() as folder:
+            ball, matrix, made = (os.path.join(folder, name) for name in ("b.vtp", "k.npy", "m.vtp"))
+            palpate.write(surface, ball)
+            np.save(matrix, stiffness)
+            told = run("import", ball, made, "--stiffness", matrix, "--unsupported")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            self.assertIn("unsupported", told.stdout)
+        self.refused("or import it as unsupported", palpate.import_stiffness, surface, stiffness)
+        self.refused("resists rigid motions", palpate.import_stiffness, surface,
+                     stiffness + np.eye(3 * n), unsupported=True)
+
+
 class Folder(Refusals):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

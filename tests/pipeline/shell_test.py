@@ -52,6 +52,45 @@ def with_array(surface, values, name, kind="point"):
     return surface
 
 
+class Unsupported(unittest.TestCase):
+    def test_a_sheet_bends_between_loads_that_balance(self):
+        # Its middle pushed and two sides pulled: a beam of b wide between lines l apart that bears F in the
+        # middle sags by F l^3 / 48 E I there, less what a plate is stiffer by.
+        sheet = plate(16)
+        points = points_of(sheet)
+        with tempfile.TemporaryDirectory() as folder:
+            surface, made = os.path.join(folder, "sheet.vtp"), os.path.join(folder, "model.vtp")
+            palpate.write(sheet, surface)
+            told = run("precompute", surface, made, "--method", "shell", "--thickness", THICKNESS, "--young",
+                       YOUNG, "--poisson", 0.0, "--domain", "unsupported")
+            self.assertEqual(told.returncode, 0, told.stderr)
+            model = palpate.read(made)
+        middle, sides = np.abs(points[:, 0]) < 1e-9, np.abs(points[:, 0]) > 0.499 * SIDE
+        areas = palpate.array(model, "VertexArea")
+        share = np.where(np.abs(points[:, 1]) > 0.499 * SIDE, 0.5, 1.0)  # of a line's ends
+        lines = share * (middle - sides / 2)
+        forces = np.outer(lines / (share * middle).sum(), (0, 0, -1.0))
+        pushed = palpate.solve(model, [], np.zeros((0, 3)), free_tractions=forces / areas[:, None])
+        u = palpate.array(pushed, "Displacement")[:, 2]
+        beam = SIDE**3 / 48 / (YOUNG * SIDE * THICKNESS**3 / 12)
+        self.assertAlmostEqual((u[sides].mean() - u[middle].mean()) / beam, 1, delta=0.02)
+        np.testing.assert_allclose(areas @ palpate.array(pushed, "Displacement"), 0, atol=1e-9 * beam)
+
+    def test_springs_bear_its_weight_and_it_is_refused_what_it_has_not(self):
+        model = palpate.precompute(plate(4), YOUNG, POISSON, method="shell", thickness=THICKNESS,
+                                   domain="unsupported")
+        springs = np.where(np.abs(points_of(model)[:, :2]).min(axis=1) > 0.499 * SIDE, 50.0, 0.0)
+        hung = palpate.gravity(palpate.foundation(model, springs=springs), density=1000)
+        np.testing.assert_allclose(springs @ palpate.array(hung, "Displacement"),
+                                   (0, 0, -1000 * SIDE**2 * THICKNESS * 9.81), rtol=1e-6, atol=1e-9)
+        with self.assertRaisesRegex(palpate.Error, "falls freely"):
+            palpate.gravity(model, density=1000)
+        with self.assertRaisesRegex(palpate.Error, "or make the shell unsupported"):
+            palpate.precompute(plate(4), YOUNG, POISSON, method="shell", thickness=THICKNESS)
+        with self.assertRaisesRegex(palpate.Error, "domain='exterior' makes no sense for method='shell'"):
+            palpate.precompute(plate(4), YOUNG, POISSON, method="shell", thickness=THICKNESS, domain="exterior")
+
+
 class Package(unittest.TestCase):
     def test_a_pressed_plate_goes_down_as_timoshenkos(self):
         # w = 0.0056 (clamped) and 0.0116 (hinged) F L^2 / D under a force in the middle of a square, which

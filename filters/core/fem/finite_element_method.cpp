@@ -110,15 +110,8 @@ void loosen(const ElasticModel& model, const fem::SurfaceResponse& response,
   const Eigen::MatrixXd &displaced = response.displacedMotions, &loaded = response.loadedMotions;
   const Eigen::MatrixXd mean = meanRigidMotion(info.vertexAreas, displaced),
                         balance = meanRigidMotion(info.vertexAreas, loaded);
-  Eigen::MatrixXd weighted = loaded;  // T^T A, transposed
-  for (int v = 0; v < info.vertexAreas.size(); ++v)
-    weighted.middleRows<3>(3 * v) *= info.vertexAreas[v];
-  const Eigen::MatrixXd resultants = response.weightResultants;
-  Eigen::MatrixXd sunk = info.weightResponse;
-  sunk -= held * (loaded * (weighted.transpose() * loaded).ldlt().solve(resultants));
-  sunk -= displaced * (mean * sunk).eval();
-  info.weightResponse.resize(size + resultants.rows(), 3);
-  info.weightResponse << sunk, resultants;
+  info.weightResponse = balancedWeight(held, info.weightResponse, response.weightResultants,
+                                       info.vertexAreas, displaced, loaded);
   if (const auto probes = info.probes) {
     Eigen::MatrixXd rows = probes->rows();
     rows -= rigidMotionsInside(model.sharedMesh(), probes->points()) * (mean * held);

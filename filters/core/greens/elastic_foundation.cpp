@@ -3,6 +3,7 @@
 
 #include "greens/elastic_foundation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -57,6 +58,39 @@ struct Springs {
   }
 };
 
+/// Whether nothing holds the bodies: the model says so, or tractions that vary like a rigid motion,
+/// which are then balanced by themselves, do nothing.
+bool isUnsupported(const GreensFunctions& greens, const ElasticModel& model) {
+  if (model.domain() == Domain::Unsupported) return true;
+  const bool canBe = model.domain() == Domain::Shell || model.domain() == Domain::Given;
+  if (!canBe || greens.columnCount() < greens.nodeCount() ||
+      !model.conditions().fixedNodes().empty())
+    return false;
+  constexpr double rounding = 1e-6;  // of thin sheets, which answer little to most loads
+  std::vector<int> all(greens.nodeCount());
+  std::iota(all.begin(), all.end(), 0);
+  const auto answerTo = [&](const Eigen::VectorXd& tractions) {
+    Eigen::VectorXd answer = Eigen::VectorXd::Zero(tractions.size());
+    greens.accumulate(nodeList(all), tractions, answer);
+    return answer.norm();
+  };
+  // As large, as smooth, and of no rigid motion.
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(model.mesh());
+  const Eigen::Matrix3Xd& points = model.mesh().points();
+  const Eigen::Vector3d middle = points.rowwise().mean();
+  double scale = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::VectorXd bent(3 * greens.nodeCount());
+    for (int v = 0; v < greens.nodeCount(); ++v)
+      bent.segment<3>(3 * v).setConstant(
+          std::pow((points(axis, v) - middle[axis]) / model.mesh().diagonal(), 2));
+    scale = std::max(scale, answerTo(bent));
+  }
+  for (const auto& motion : motions.colwise())
+    if (answerTo(motion) > rounding * scale) return false;
+  return true;
+}
+
 /// The answers of a body to all that is given: columns of Xi, and what its weight does; inside, at
 /// its probes, those to the former.
 class Answers {
@@ -68,6 +102,7 @@ class Answers {
         springs_(springs),
         where_(where),
         probes_(std::move(probes)),
+        isLoose_(isUnsupported(greens, model)),
         types_(model.conditions().types()) {
     for (int v : where.released) types_[v] = 0;
     greens.requireColumns(nodeList(model.conditions().freeNodes()));
@@ -75,8 +110,8 @@ class Answers {
       if (greens.hasColumn(v)) columns_.push_back(v);
     std::vector<int> rows(greens.nodeCount());
     std::iota(rows.begin(), rows.end(), 0);
-    ofWeight_ = isLoose() ? looseWeightResponse(greens, model.mesh(), model.smoothPatches())
-                          : greens.info().weightResponse;
+    ofWeight_ = isLoose_ ? looseWeightResponse(greens, model.mesh(), model.smoothPatches())
+                         : greens.info().weightResponse;
     answers_.resize(3 * rows.size(), 3 * columns_.size() + ofWeight_.cols());
     greens.gather(nodeList(rows), nodeList(columns_), answers_.data());
     answers_.rightCols(ofWeight_.cols()) = ofWeight_.topRows(answers_.rows());
@@ -136,7 +171,7 @@ class Answers {
     const Eigen::Index count = perSpring.cols();
     const Eigen::MatrixXd loosened =
         Eigen::MatrixXd::Identity(count, count) + rowsOf(nodes, perSpring);
-    if (!isLoose()) {
+    if (!isLoose_) {
       const Eigen::MatrixXd stretches = solved(loosened, rowsOf(nodes, answers_));
       answers_.noalias() -= perSpring * stretches;
       inside_.noalias() -= insidePerSpring * stretches;
@@ -171,8 +206,6 @@ class Answers {
   }
 
  private:
-  bool isLoose() const { return model_.domain() == Domain::Unsupported; }
-
   Eigen::Matrix3d blockOf(int node) const { return springs_.middleCols<3>(3 * node); }
 
   Eigen::MatrixXd columnsOf(const Eigen::MatrixXd& all, const std::vector<int>& nodes) const {
@@ -224,6 +257,7 @@ class Answers {
   const Eigen::Matrix3Xd& springs_;
   const Springs& where_;
   std::shared_ptr<const ProbeRows> probes_;
+  bool isLoose_;
   std::vector<unsigned char> types_;
   std::vector<int> columns_;
   Eigen::MatrixXd ofWeight_;

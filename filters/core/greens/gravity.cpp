@@ -46,7 +46,8 @@ void requireKnown(const GreensFunctions& greens, const SurfaceMesh& mesh,
     reason = "the weight of a half-space is infinite: it sinks without end under its own";
   else if (info.domain == Domain::Exterior)
     reason = "the space around a surface has no weight that it could bear";
-  else if (info.domain == Domain::Unsupported)
+  else if (info.domain == Domain::Unsupported ||
+           info.weightResponse.rows() > 3 * greens.nodeCount())
     reason = "what nothing holds falls freely, and its weight does not deform it";
   else if (info.domain == Domain::Shell || !info.homogeneous)
     reason = "this model does not know what its weight does: compute its Green's functions again";
@@ -130,7 +131,8 @@ Eigen::MatrixXd looseWeightResponse(const GreensFunctions& greens, const Surface
   const GreensFunctionsInfo& info = greens.info();
   const Eigen::MatrixXd motions = rigidMotionsOfBodies(mesh);
   if (info.weightResponse.rows() == motions.rows() + motions.cols()) return info.weightResponse;
-  if (!info.homogeneous || hasSharpEdges(info, mesh, patches)) return {};
+  if (info.domain != Domain::Unsupported || !info.homogeneous || hasSharpEdges(info, mesh, patches))
+    return {};
   const Eigen::Index size = motions.rows();
   Eigen::MatrixXd response(size + motions.cols(), 3);
   for (int k = 0; k < 3; ++k) {

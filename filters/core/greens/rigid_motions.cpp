@@ -69,6 +69,20 @@ void removeRigidMotions(Scalar* matrix, const Eigen::VectorXd& areas,
   xi.noalias() -= ofBalance * balance;
 }
 
+Eigen::MatrixXd balancedWeight(const Eigen::Ref<const Eigen::MatrixXd>& held,
+                               const Eigen::MatrixXd& weight, const Eigen::MatrixXd& resultants,
+                               const Eigen::VectorXd& areas, const Eigen::MatrixXd& displaced,
+                               const Eigen::MatrixXd& loaded) {
+  Eigen::MatrixXd weighted = loaded;
+  for (Eigen::Index v = 0; v < areas.size(); ++v) weighted.middleRows<3>(3 * v) *= areas[v];
+  Eigen::MatrixXd sunk =
+      weight - held * (loaded * (weighted.transpose() * loaded).ldlt().solve(resultants));
+  sunk -= displaced * (meanRigidMotion(areas, displaced) * sunk).eval();
+  Eigen::MatrixXd result(weight.rows() + resultants.rows(), weight.cols());
+  result << sunk, resultants;
+  return result;
+}
+
 template void removeRigidMotions(double*, const Eigen::VectorXd&, const Eigen::MatrixXd&,
                                  const Eigen::MatrixXd&);
 template void removeRigidMotions(float*, const Eigen::VectorXd&, const Eigen::MatrixXd&,

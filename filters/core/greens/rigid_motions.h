@@ -45,6 +45,16 @@ template <class Scalar>
 void removeRigidMotions(Scalar* matrix, const Eigen::VectorXd& areas,
                         const Eigen::MatrixXd& displaced, const Eigen::MatrixXd& loaded);
 
+/// The weight's part of that, and what springs need besides to bear it.
+/// @param held        3 #V by 3 #V, as before.
+/// @param weight      3 #V by any: what it does to the bodies that are held.
+/// @param resultants  6 #bodies by as many, by rigidMotionsOfBodies.
+/// @return what it does where it is balanced as any load is, and below it the resultants.
+Eigen::MatrixXd balancedWeight(const Eigen::Ref<const Eigen::MatrixXd>& held,
+                               const Eigen::MatrixXd& weight, const Eigen::MatrixXd& resultants,
+                               const Eigen::VectorXd& areas, const Eigen::MatrixXd& displaced,
+                               const Eigen::MatrixXd& loaded);
+
 extern template void removeRigidMotions(double*, const Eigen::VectorXd&, const Eigen::MatrixXd&,
                                         const Eigen::MatrixXd&);
 extern template void removeRigidMotions(float*, const Eigen::VectorXd&, const Eigen::MatrixXd&,

@@ -52,7 +52,7 @@ void requireHeldPiece(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& 
   if (least < kFree || isNowhereHeld)
     refuse(hasFixed ? "the stiffness and the fixed vertices leave" : "the stiffness leaves",
            " the body free to move (", held.weakest.describe(),
-           "): fix at least three vertices that are not on one line");
+           "): fix at least three vertices that are not on one line, or import it as unsupported");
   if (least < kLoose)
     warnings.push_back(sentence(
         "the body is held weakly (", held.weakest.describe(), " costs ", least,
@@ -106,6 +106,18 @@ void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
     requireHeldPiece(stiffness, free, pieces, piece, fixed.cols() > 0, isNowhereHeld, warnings);
 }
 
+void requireLoose(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& points) {
+  const RigidMotions moved = rigidMotions(stiffness, points);
+  if (moved.shares.maxCoeff() < kLoose) return;
+  if (rigidMotions(stiffness, points, false).shares.maxCoeff() < kLoose)
+    refuse(
+        "the stiffness resists no translation, but rotations: its nodes are not where the "
+        "surface has them, or not in this order");
+  refuse("the stiffness resists rigid motions (by up to ", moved.shares.maxCoeff(),
+         " of the work of its points by themselves): the body is held where the matrix is from, "
+         "and not unsupported");
+}
+
 void requireNoStiffness(const GivenMatrix& compliance, const NodePlaces& places) {
   if (answerToTranslations(compliance, componentsOf(places)) < kLoose)
     refuse(
@@ -135,6 +147,10 @@ double apparentModulus(const Eigen::MatrixXd& compliance, double size) {
     refuse("forces on all points of the body move it by ", yielding,
            " m/N, which no elastic body does");
   return modulus;
+}
+
+double looseModulus(const Eigen::MatrixXd& compliance, double edge) {
+  return compliance.rows() / (compliance.trace() * edge);
 }
 
 void warnOfUnits(double modulus, std::vector<std::string>& warnings) {

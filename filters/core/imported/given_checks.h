@@ -31,6 +31,10 @@ void requireHeld(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& free,
                  const Eigen::VectorXi& pieces, const Eigen::Matrix3Xd& fixed,
                  std::vector<std::string>& warnings);
 
+/// @param stiffness  likewise, of a surface in one piece.
+/// @throws std::invalid_argument if it resists a rigid motion.
+void requireLoose(const Eigen::MatrixXd& stiffness, const Eigen::Matrix3Xd& points);
+
 /// @param compliance  m/N, as it will be served.
 /// @param defect      its relative asymmetry, which eigenvalues are uncertain by.
 /// @return how negative it is, beyond rounding and defect.
@@ -41,6 +45,10 @@ Negativity requireCompliance(const Eigen::MatrixXd& compliance, double defect,
 /// this one: 1 / (c L) with the compliance c, mean of three directions, and the size L.
 /// @throws std::invalid_argument if there is none.
 double apparentModulus(const Eigen::MatrixXd& compliance, double size);
+
+/// The same of a loose body, by how far a point of it yields to a force on itself: 1 / (c h) with
+/// the mean c and the distance h of points.
+double looseModulus(const Eigen::MatrixXd& compliance, double edge);
 
 /// Warns of a modulus that no material has.
 void warnOfUnits(double modulus, std::vector<std::string>& warnings);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "greens/reciprocity.h"
+#include "greens/rigid_motions.h"
 #include "imported/given_checks.h"
 #include "imported/response.h"
 #include "imported/static_condensation.h"
@@ -112,6 +113,7 @@ class Import {
  private:
   void compute(Diagnostics& diagnostics);
   Response stiffnessResponse();
+  Response looseResponse(Eigen::MatrixXd stiffness);
   Response complianceResponse();
   Eigen::Matrix3Xd pointsOf(const std::vector<int>& vertices) const {
     return model_.mesh().points()(Eigen::all, vertices);
@@ -137,6 +139,7 @@ Response Import::stiffnessResponse() {
   Eigen::MatrixXd stiffness =
       imported::condensedStiffness(matrix_, parts_.rows, places_, progress_.part(0.1, 0.5));
   stiffness *= options_.forceUnit / options_.lengthUnit;
+  if (options_.unsupported) return looseResponse(std::move(stiffness));
   Eigen::VectorXi pieces(parts_.free.size());
   for (std::size_t i = 0; i < parts_.free.size(); ++i)
     pieces[i] = model_.mesh().bodyOfVertex(parts_.free[i]);
@@ -152,7 +155,30 @@ Response Import::stiffnessResponse() {
   return response;
 }
 
+/// K + s R R^T holds the body by springs that loads which balance each other do not stretch.
+Response Import::looseResponse(Eigen::MatrixXd stiffness) {
+  if (static_cast<int>(parts_.free.size()) < model_.mesh().vertexCount() ||
+      !options_.columns.empty() || model_.mesh().bodyCount() > 1)
+    refuse(
+        "an unsupported body is in one piece, and all of its vertices are free nodes of the matrix "
+        "with Green's functions: leave out what fixes them, and columns");
+  imported::requireLoose(stiffness, model_.mesh().points());
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(model_.mesh());
+  const double each = stiffness.trace() / static_cast<double>(stiffness.rows());
+  stiffness += 3 * each / static_cast<double>(stiffness.rows()) * motions * motions.transpose();
+  int row = -1;
+  const Eigen::Index size = stiffness.rows();
+  Response response =
+      imported::responseOfStiffness(std::move(stiffness), size, row, progress_.part(0.5, 0.9));
+  if (row >= 0)
+    refuse("the stiffness leaves more than rigid motions free (found at ",
+           places_.nameOf(parts_.rows[row]), "): some deformation would cost no work");
+  return response;
+}
+
 Response Import::complianceResponse() {
+  if (options_.unsupported)
+    refuse("a loose body has no compliance: an unsupported body is imported by its stiffness");
   imported::requireNoStiffness(matrix_, places_);
   Eigen::MatrixXd compliance = matrix_.block(parts_.rows, parts_.rows);
   compliance *= options_.lengthUnit / options_.forceUnit;
@@ -193,6 +219,7 @@ std::string Import::source() const {
                      kind_ == MatrixKind::Stiffness ? "condensed out" : "left out");
   if (!parts_.held.empty())
     text += sentence(", ", parts_.held.size(), " vertices held where it is from");
+  if (options_.unsupported) text += ", unsupported";
   return text + (options_.reciprocal || kind_ == MatrixKind::Stiffness ? ")" : "), raw");
 }
 
@@ -235,7 +262,10 @@ void Import::fill(ComputedGreensFunctions& greens) const {
 ImportedGreensFunctions Import::result() {
   Diagnostics diagnostics;
   compute(diagnostics);
-  const double apparent = imported::apparentModulus(response_.compliance, model_.mesh().diagonal());
+  const double apparent =
+      options_.unsupported
+          ? imported::looseModulus(response_.compliance, model_.mesh().meanEdgeLength())
+          : imported::apparentModulus(response_.compliance, model_.mesh().diagonal());
   imported::warnOfUnits(apparent, warnings_);
   std::vector<unsigned char> types(model_.mesh().vertexCount(), 0);
   for (int node : parts_.fixed) types[node] = 1;
@@ -251,7 +281,12 @@ ImportedGreensFunctions Import::result() {
   greens.info.diagnostics.warnings = std::move(warnings_);
   progress_.report(0.9, "check");
   fill(greens);
-  greens.info.diagnostics.rockingCompliance = rockingCompliance(*greens.view(), model.mesh());
+  if (options_.unsupported) {
+    const Eigen::MatrixXd motions = rigidMotionsOfBodies(model.mesh());
+    removeRigidMotions(greens.matrix.data(), greens.info.vertexAreas, motions, motions);
+  } else {
+    greens.info.diagnostics.rockingCompliance = rockingCompliance(*greens.view(), model.mesh());
+  }
   progress_.report(1, "done");
   return {std::move(model), std::move(greens)};
 }

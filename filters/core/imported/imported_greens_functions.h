@@ -33,6 +33,9 @@ struct ImportOptions {
   /// What Young's modulus the matrix holds for, Pa: scaling it scales the matrix. 0 for the one
   /// that a body of the surface's size and compliance would have.
   double youngsModulus = 0;
+  /// A loose body's stiffness stays that of a body that nothing holds: rigid motions are taken out
+  /// (removeRigidMotions).
+  bool unsupported = false;
 };
 
 /// Up to which relative defect |M - M^T| / |M| a matrix is taken for symmetric.

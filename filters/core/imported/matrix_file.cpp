@@ -47,10 +47,11 @@ Eigen::MatrixXd readTable(std::string_view bytes, const std::string& path) {
 /// Binary files that are no NumPy arrays, such as Ansys' .sub and .full or NASTRAN's .op2 and .op4.
 void refuseBinary(std::string_view bytes, const std::string& path) {
   if (bytes.find('\0') != bytes.npos)
-    refuse(path,
-           ": this is a binary file of a kind that is not read: have Ansys write the superelement's "
-           "matrix as text (of .sub and .full files, HBMAT with its mapping file), NASTRAN punch "
-           "DMIG cards (.pch), or save the matrix as a NumPy .npy or Matrix Market file");
+    refuse(
+        path,
+        ": this is a binary file of a kind that is not read: have Ansys write the superelement's "
+        "matrix as text (of .sub and .full files, HBMAT with its mapping file), NASTRAN punch "
+        "DMIG cards (.pch), or save the matrix as a NumPy .npy or Matrix Market file");
 }
 
 GivenMatrix readByContent(std::string_view bytes, const std::string& path,

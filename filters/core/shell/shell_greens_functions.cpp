@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "greens/reciprocity.h"
+#include "greens/rigid_motions.h"
 #include "shell/shell_refinement.h"
 #include "shell/shell_response.h"
 #include "shell/shell_system.h"
@@ -44,7 +45,82 @@ std::string describeSource(const ElasticModel& model, const ThinShell& shell) {
   return text.str();
 }
 
+/// The same model with the vertex nearest to the middle of each piece fixed.
+ElasticModel heldInTheMiddle(const ElasticModel& model) {
+  const SurfaceMesh& mesh = model.mesh();
+  std::vector<Eigen::Vector3d> middles(mesh.bodyCount(), Eigen::Vector3d::Zero());
+  std::vector<int> counts(mesh.bodyCount(), 0), nearest(mesh.bodyCount(), -1);
+  for (int v = 0; v < mesh.vertexCount(); ++v) {
+    middles[mesh.bodyOfVertex(v)] += mesh.points().col(v);
+    ++counts[mesh.bodyOfVertex(v)];
+  }
+  const auto away = [&](int v) {
+    const int body = mesh.bodyOfVertex(v);
+    return (mesh.points().col(v) - middles[body] / counts[body]).norm();
+  };
+  for (int v = 0; v < mesh.vertexCount(); ++v) {
+    int& best = nearest[mesh.bodyOfVertex(v)];
+    if (best < 0 || away(v) < away(best)) best = v;
+  }
+  std::vector<unsigned char> types(mesh.vertexCount(), 0);
+  for (int v : nearest) types[v] = 1;
+  return ElasticModel(model.sharedMesh(), model.material(), BoundaryConditions(std::move(types)),
+                      model.smoothPatches(), model.domain());
+}
+
 }  // namespace
+
+ComputedGreensFunctions computeFreeShellGreensFunctions(const ElasticModel& model,
+                                                        const Eigen::Matrix3Xd& thickness,
+                                                        const ShellOptions& options,
+                                                        const ProgressCallback& callback) {
+  requireAllColumns(options.columns, false);
+  if (!model.conditions().fixedNodes().empty())
+    throw std::invalid_argument("nothing holds an unsupported shell: leave all vertices free");
+  if (options.estimateError)
+    throw std::invalid_argument(
+        "the error of an unsupported shell is not estimated: leave the estimate out");
+  const ElasticModel held = heldInTheMiddle(model);
+  const ThinShell shell(held, thickness, true);
+  ComputedGreensFunctions ofHeld =
+      computeShellGreensFunctions(held, shell, {{}, options.reciprocal, false}, callback);
+  ComputedGreensFunctions result;
+  GreensFunctionsInfo& info = result.info;
+  info = infoOf(model, {});
+  info.fingerprint =
+      shellFingerprint(model.fingerprint(), thickness, heldComponents(model.conditions(), true));
+  info.source = ofHeld.info.source + ", unsupported";
+  info.reciprocal = options.reciprocal;
+  info.diagnostics = std::move(ofHeld.info.diagnostics);
+  info.diagnostics.rockingCompliance = Diagnostics().rockingCompliance;
+
+  const Eigen::Index size = 3 * model.mesh().vertexCount();
+  result.matrix = AlignedBuffer<double>(size * size);
+  Eigen::Map<Eigen::MatrixXd> matrix(result.matrix.data(), size, size);
+  matrix.setZero();
+  const Eigen::Map<const Eigen::MatrixXd> columns(ofHeld.matrix.data(), size,
+                                                  3 * ofHeld.info.columnNodes.size());
+  for (std::size_t c = 0; c < ofHeld.info.columnNodes.size(); ++c)
+    matrix.middleCols<3>(3 * ofHeld.info.columnNodes[c]) = columns.middleCols<3>(3 * c);
+  Eigen::MatrixXd weight = std::move(ofHeld.info.weightResponse);
+  for (int node : held.conditions().fixedNodes()) {  // whose rows are reactions
+    matrix.middleRows<3>(3 * node).setZero();
+    weight.middleRows<3>(3 * node).setZero();
+  }
+  const Eigen::MatrixXd motions = rigidMotionsOfBodies(model.mesh());
+  const shell::ShellSystem system(held, shell);
+  const double unit = system.length * system.length * system.length;
+  Eigen::MatrixXd resultants = Eigen::MatrixXd::Zero(motions.cols(), 3);
+  for (int v = 0; v < model.mesh().vertexCount(); ++v)
+    resultants += unit * system.volumes[v] * motions.middleRows<3>(3 * v).transpose();
+  info.weightResponse =
+      balancedWeight(matrix, weight, resultants, info.vertexAreas, motions, motions);
+  removeRigidMotions(result.matrix.data(), info.vertexAreas, motions, motions);
+  info.diagnostics.reciprocityDefect =
+      makeReciprocal(result.matrix.data(), info.conditions, info.vertexAreas, info.columnNodes,
+                     options.reciprocal);
+  return result;
+}
 
 ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
                                                     const ThinShell& shell,

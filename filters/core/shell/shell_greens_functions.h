@@ -40,4 +40,15 @@ ComputedGreensFunctions computeShellGreensFunctions(const ElasticModel& model,
                                                     const ShellOptions& options = {},
                                                     const ProgressCallback& progress = {});
 
+/// Those of a shell that nothing holds: of one that is clamped at a single vertex a piece, which
+/// bears nothing under loads that balance each other, without its rigid motions
+/// (removeRigidMotions).
+/// @param model      likewise, nothing of it fixed.
+/// @param thickness  3 by #F, as of ThinShell.
+/// @throws also for columns, which all are needed, and for an estimate of the error.
+ComputedGreensFunctions computeFreeShellGreensFunctions(const ElasticModel& model,
+                                                        const Eigen::Matrix3Xd& thickness,
+                                                        const ShellOptions& options = {},
+                                                        const ProgressCallback& progress = {});
+
 }  // namespace palpate

@@ -64,7 +64,8 @@ void requireHeld(const SurfaceMesh& mesh, const HeldComponents& held) {
     const std::string left = sentence(" free (", motion.describe(), "): ");
     if (support.points.empty() && support.axes.empty())
       refuse(piece, " is not held anywhere, which leaves a rigid motion", left,
-             "fix vertices, clamped or three that are not on one line");
+             "fix vertices, clamped or three that are not on one line, or make the shell "
+             "unsupported");
     refuse("what is held of ", piece, " leaves a rigid motion", left,
            "clamp its fixed vertices, or fix three that are not on one line");
   }

@@ -109,7 +109,8 @@ void readInside(vtkPolyData* surface, GreensFunctionsInfo& info)
   if (hasField(surface, arrays::WeightResponse))
   {
     vtkIdType rows = 3 * surface->GetNumberOfPoints();
-    if (info.domain == Domain::Unsupported)
+    vtkDataArray* array = surface->GetFieldData()->GetArray(arrays::WeightResponse);
+    if (array && array->GetNumberOfComponents() > rows) // of what nothing holds
     {
       rows += 6 * SurfaceMesh(meshOf(surface)).bodyCount(); // the weight's resultants
     }

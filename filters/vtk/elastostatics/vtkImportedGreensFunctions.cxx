@@ -46,7 +46,8 @@ void vtkImportedGreensFunctions::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "LengthUnit: " << this->LengthUnit << "\n"
      << indent << "ForceUnit: " << this->ForceUnit << "\n"
      << indent << "NodeTolerance: " << this->NodeTolerance << "\n"
-     << indent << "YoungsModulus: " << this->YoungsModulus << "\n";
+     << indent << "YoungsModulus: " << this->YoungsModulus << "\n"
+     << indent << "Unsupported: " << this->Unsupported << "\n";
 }
 
 void vtkImportedGreensFunctions::SetMatrixFileName(const char* name)
@@ -129,6 +130,7 @@ void vtkImportedGreensFunctions::Compute(
   options.reciprocal = this->Reciprocal;
   options.columns = this->Columns(input->GetNumberOfPoints());
   options.youngsModulus = this->YoungsModulus;
+  options.unsupported = this->Unsupported;
   const palpate::Progress progress(
     [this](double fraction, const char* stage) { return this->ReportProgress(fraction, stage); });
   const palpate::ElasticModel model =

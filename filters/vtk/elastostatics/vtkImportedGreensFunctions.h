@@ -121,6 +121,16 @@ public:
   vtkGetMacro(YoungsModulus, double);
   ///@}
 
+  ///@{
+  /**
+   * A loose body's stiffness is one of a body that nothing holds, as Domain UNSUPPORTED of
+   * vtkBoundaryElementGreensFunctions. Default off, where fixed vertices have to hold it.
+   */
+  vtkSetMacro(Unsupported, bool);
+  vtkGetMacro(Unsupported, bool);
+  vtkBooleanMacro(Unsupported, bool);
+  ///@}
+
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -136,6 +146,7 @@ private:
   int DofOrder = BY_NODE;
   double NodeTolerance = 1e-5;
   double YoungsModulus = 0;
+  bool Unsupported = false;
   std::string MatrixFileName, NodeFileName, MappingFileName, MatrixName;
   std::string LengthUnit = "m", ForceUnit = "N";
   vtkSmartPointer<vtkDoubleArray> Matrix, Nodes;

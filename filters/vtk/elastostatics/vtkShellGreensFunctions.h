@@ -55,6 +55,16 @@ public:
 
   ///@{
   /**
+   * Nothing holds the shell, and BoundaryType is not read: as Domain UNSUPPORTED of
+   * vtkBoundaryElementGreensFunctions. Default off.
+   */
+  vtkSetMacro(Unsupported, bool);
+  vtkGetMacro(Unsupported, bool);
+  vtkBooleanMacro(Unsupported, bool);
+  ///@}
+
+  ///@{
+  /**
    * Estimate the relative error (palpate::estimateShellError) on a mesh of four times the vertices, which
    * takes sixteen times as long as the model itself; of models of up to a thousand vertices. Default off.
    */
@@ -74,6 +84,7 @@ private:
 
   double Thickness = 0;
   bool Clamped = true;
+  bool Unsupported = false;
   bool EstimateError = false;
 };
 
