@@ -8,6 +8,8 @@
 #include <shell_arrays.h>
 #include <smooth_patch_arrays.h>
 #include <volume_arrays.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <utility>
@@ -52,6 +54,11 @@ BodyLevels::BodyLevels(vtkPolyData* surface, vtkUnstructuredGrid* volume, int le
                        const AccuracyOptions& options)
     : domain_(domainOf(methodNamed(options.method))) {
   const Subdivision subdivision = subdivisionOf(options, domain_, volume != nullptr);
+  if (isSolid() && surface->GetPointData()->HasArray("HeldComponents"))
+    refuse(
+        "the surface has the point array 'HeldComponents', which levels of solids do not keep: "
+        "take "
+        "it away, or compare models of several meshes by --reference");
   const ElasticModel first = convert::modelOf(surface, kSmoothAngle, domain_);
   const bool isInherited = !isSolid() || subdivision == Subdivision::Curved ||
                            convert::hasGivenPatches(surface, first.mesh());

@@ -150,6 +150,14 @@ class SeveralMaterials(unittest.TestCase):
     def test_that_cannot_be_studied_are_refused(self):
         path, _ = layers()
         held = ("--fix-half-space", 0, 0, 0.001, 0, 0, 1)
+        guided = cube(2)
+        components = np.zeros((guided.GetNumberOfPoints(), 3))
+        guided.GetPointData().AddArray(as_vtk(components, "HeldComponents", 3, np.uint8))
+        surface = str(Path(FOLDER.name) / "guided.vtp")
+        palpate.write(guided, surface)
+        refused = accuracy(surface, "--method", "fem", *MATERIAL, *held)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("'HeldComponents', which levels of solids do not keep", refused.stderr)
         for arguments, sentence in (((), "add --method fem"),
                                     (("--method", "fem", "--subdivision", "loop"), "off its tetrahedra")):
             refused = accuracy(path, *held, *arguments)

@@ -106,7 +106,7 @@ class Package(unittest.TestCase):
                 (lambda: palpate.press(changed, (0.5, 0.5, 2), force=(0, 0, 1)), "stale"),
                 (lambda: palpate.precompute(model, YOUNG, POISSON), "choose finite elements"),
                 (lambda: palpate.surface_stress(palpate.press(model, (0.5, 0.5, 2), force=(0, 0, 1))),
-                 "single components are held")):
+                 "without HeldComponents")):
             with self.assertRaises(palpate.Error) as raised:
                 what()
             self.assertIn(sentence, str(raised.exception))

@@ -52,6 +52,14 @@ def with_array(surface, values, name, kind="point"):
     return surface
 
 
+class Sheets(unittest.TestCase):
+    def test_that_meet_by_three_are_refused_with_what_to_do(self):
+        points = [(0, 0, 0), (1, 0, 0), (0.5, 1, 0), (0.5, -1, 0), (0.5, 0, 1)]
+        sheets = polydata(points, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
+        with self.assertRaisesRegex(palpate.Error, r"edge \(0, 1\) belongs to 3 triangles .*leave two of the sheets"):
+            palpate.precompute(sheets, YOUNG, POISSON, fixed=np.arange(5) < 3, method="shell", thickness=0.01)
+
+
 class Unsupported(unittest.TestCase):
     def test_a_sheet_bends_between_loads_that_balance(self):
         # Its middle pushed and two sides pulled: a beam of b wide between lines l apart that bears F in the

@@ -115,7 +115,10 @@ void findEdgeDefects(const Eigen::Matrix3Xi& triangles, Rims rims, DefectList& d
     if (last - first > 2)
       defects.add(MeshDefectKind::NonManifoldEdge, f,
                   sentence(edge(), " belongs to ", last - first, " triangles (the first is ", f,
-                           "): the surface is not a manifold there"));
+                           "): the surface is not a manifold there",
+                           rims == Rims::Allowed ? "; leave two of the sheets that meet in it, or "
+                                                   "fill what they are as a solid (--method fem)"
+                                                 : ""));
     else if (last - first == 1 && rims == Rims::Allowed)
       return;
     else if (last - first == 1)

@@ -117,12 +117,17 @@ DeformedBody deformedSurfaceOf(vtkPolyData* surface, std::vector<Elasticity>& ma
       info.material.youngsModulus() /
         fieldNumber(surface, arrays::GreensFunctionYoungsModulus, "compute the Green's functions again"));
   }
-  if (info.domain == Domain::Shell || info.domain == Domain::Given ||
-    (!info.homogeneous && materials.empty()))
+  if (info.domain == Domain::Shell || info.domain == Domain::Given)
+  {
+    throw std::invalid_argument("stresses at the surface are computed of solids, cavities and half-spaces: "
+                                "not in shells, of given matrices or on springs");
+  }
+  if (!info.homogeneous && materials.empty())
   {
     throw std::invalid_argument(
-      "stresses at the surface are computed of solids, cavities and half-spaces: not in shells and given "
-      "matrices, on springs, or where single components are held, as nobody knows what these bear");
+      "the model does not know the materials behind its triangles, or what holds single components bears: "
+      "for stresses at the surface compute its Green's functions by finite elements, without "
+      "HeldComponents (precompute --method fem)");
   }
   return deformed(served, surface);
 }
