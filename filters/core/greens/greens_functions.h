@@ -44,7 +44,7 @@ struct GreensFunctionsInfo {
   bool reciprocal = false;  ///< the free-free blocks are symmetric as force compliances
   /// 3 #nodes by 3: what a weight of 1 N/m^3 along each axis does, metres where free and pascals
   /// where fixed (of a body of several densities: in the mean over its volume). Empty where it was
-  /// not computed.
+  /// not computed; of what nothing holds as looseWeightResponse has it.
   Eigen::MatrixXd weightResponse;
   double density = 0;                       ///< kg/m^3, in the mean; 0 where it is not known
   std::shared_ptr<const ProbeRows> probes;  ///< that the method was asked for, or null
