@@ -160,6 +160,15 @@ class VolumeFiles(unittest.TestCase):
         with self.assertRaisesRegex(palpate.Error, "cell 0 of the volume mesh: its MaterialAxes"):
             palpate.precompute(grid, YOUNG, POISSON, fixed=fixed, method="fem")
 
+    def test_the_program_tells_what_makes_a_volume_mesh_of_other_files(self):
+        with open(self.path("part.msh"), "w", encoding="utf-8") as file:
+            file.write("$MeshFormat\n")
+        refused = run("precompute", self.path("part.msh"), self.path("model.vtp"), "--method", "fem", "--young", 1,
+                      "--poisson", 0.3)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("meshio convert", refused.stderr)
+        self.assertFalse(os.path.exists(self.path("model.vtp")))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -100,7 +100,8 @@ void vtkElasticSurfaceReader::Read(const std::string& path, vtkPolyData* output)
   else
   {
     throw std::runtime_error(
-      "files of this kind are not read: choose .vtp, .stl, .obj, .ply or .off");
+      "files of this kind are not read: choose .vtp, .stl, .obj, .ply or .off, of volume meshes .vtu or "
+      ".vtk, which `meshio convert` makes of Gmsh's .msh and others");
   }
   const vtkIdType points = output->GetNumberOfPoints();
   for (vtkCellArray* cells :
