@@ -3,6 +3,7 @@
 """Weights, foundations and bodies that nothing holds, through filters, files, program and package."""
 
 import functools
+import json
 import os
 import tempfile
 import unittest
@@ -329,7 +330,20 @@ class Program(unittest.TestCase):
         self.well("stiffness", soft, "--radius-edges", 2)
         self.well("touch", soft, "--tool-radius", 0.3, "--device", "simulated", "--headless", "--seconds", 0.2)
         self.assertIn("on springs at", self.well("info", soft))
+        self.well("foundation", self.file("firm.vtp"), soft, "--stiffness", 1e4, "--probe", 0.1, 0, 0.2)
+        told = self.well("press", soft, "--at", 0, 0, 1, "--force", 0, 0, -1, "--radius", 0.4, "--probe", 0.1, 0,
+                         0.2)
+        self.assertIn("von Mises stress, Pa", told)
+        scene = self.file("scene.json")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(json.dumps({
+                "models": [{"file": "soft.vtp"}], "devices": [{"name": "hand", "type": "simulated"}],
+                "tools": [{"shape": "sphere", "radius": 0.4, "device": "hand"}],
+                "effects": {"probes": [{"name": "p", "inside": [0.1, 0, 0.2], "von_mises_limit": 1e-3}]}}))
+        seen = run("touch", "--scene", scene, "--headless", "--seconds", 1.2)
+        self.assertIn("a limit of the probe p was first exceeded", seen.stdout + seen.stderr)
         for sentence, arguments in (("no spring of any", ()), ("--shear goes with", ("--shear", 1)),
+                                    ("three coordinates a place", ("--stiffness", 1, "--probe", 1, 2)),
                                     ("three coordinates and a stiffness", ("--spring", 1, 2, 3)),
                                     ("negative stiffness", ("--spring", 0, 0, 1, -3)),
                                     ("must be above 0 Pa/m", ("--stiffness", -1)),
