@@ -52,7 +52,9 @@ HandGrip::HandGrip(const HandModel& hand, std::shared_ptr<const SurfaceMesh> mes
   for (int v = 0; v < mesh_->vertexCount(); ++v) fixed_.push_back(conditions.isFixed(v));
 }
 
-double HandGrip::depthOf(const RigidPose* placed, int first, int count, bool fixed) const {
+double HandGrip::depth(const ToolPose& pose, int first, int count, bool fixed) const {
+  RigidPose placed[kHandCapsuleCount];
+  tool_.place(pose, placed);
   double least = std::numeric_limits<double>::infinity();
   for (int v = 0; v < mesh_->vertexCount(); ++v)
     if (bool(fixed_[v]) == fixed)
@@ -63,16 +65,20 @@ double HandGrip::depthOf(const RigidPose* placed, int first, int count, bool fix
   return -least;
 }
 
-double HandGrip::depth(const ToolPose& pose, int first, int count, bool fixed) const {
-  RigidPose placed[kHandCapsuleCount];
-  tool_.place(pose, placed);
-  return depthOf(placed, first, count, fixed);
-}
-
 bool HandGrip::presses(const ToolPose& pose, int first, int count, double depth) const {
   RigidPose placed[kHandCapsuleCount];
   tool_.place(pose, placed);
-  return depthOf(placed, first, count, false) > depth || depthOf(placed, first, count, true) > 0;
+  for (int bone = first; bone < first + count; ++bone) {
+    const std::shared_ptr<const RigidShape> shape = tool_.shape(bone);
+    const double reach = shape->reach();
+    for (int v = 0; v < mesh_->vertexCount(); ++v) {
+      const Eigen::Vector3d offset = mesh_->points().col(v) - placed[bone].position;
+      if (offset.squaredNorm() > reach * reach) continue;  // outside of the bone
+      const Eigen::Vector3d own = placed[bone].orientation.conjugate() * offset;
+      if (-shape->proximity(own).distance > (fixed_[v] ? 0 : depth)) return true;
+    }
+  }
+  return false;
 }
 
 ToolPose HandGrip::lowered(ToolPose pose, const Eigen::Vector3d& way, double farthest,

@@ -37,7 +37,6 @@ class HandGrip {
   ToolPose closed(ToolPose pose, double depth) const;
 
  private:
-  double depthOf(const RigidPose* placed, int first, int count, bool fixed) const;
   bool presses(const ToolPose& pose, int first, int count, double depth) const;
 
   HandTool tool_;
