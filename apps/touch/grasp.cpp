@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -140,9 +141,7 @@ void runGrasp(const TouchOptions& options) {
   DeviceState state;
   Wrench wrench;
   GraspTally tally;
-  const auto start = Clock::now();
-  while (tally.frames() < replay.frames) {
-    requireUninterrupted(options);
+  const auto move = [&] {
     for (int tick = 0; tick < replay.momentsAFrame; ++tick) {
       const auto begin = Clock::now();
       if (!glove.read(state)) continue;  // while it is away the hand stays as it was
@@ -150,12 +149,22 @@ void runGrasp(const TouchOptions& options) {
       tally.addStep(certificate, secondsSince(begin));
       glove.write(wrench);
     }
+  };
+  const auto start = Clock::now();
+  auto moved = std::async(std::launch::async, move);
+  while (true) {
+    requireUninterrupted(options);
+    moved.get();
     touch.fill(snapshot.contact);
+    tally.addFrame(touch);
+    const bool isLast = tally.frames() == replay.frames;
+    // The hand goes on while this frame is drawn.
+    if (!isLast) moved = std::async(std::launch::async, move);
     deformation.computeAll(snapshot.contact);
     view.Deform(0, deformation.displacement());
     view.Show(snapshot);
     window.render();
-    tally.addFrame(touch);
+    if (isLast) break;
   }
   tally.print(touch, body.mesh->vertexCount(), secondsSince(start), kFrameSeconds);
   if (options.image.empty()) return;

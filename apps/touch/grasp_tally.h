@@ -18,7 +18,7 @@ class GraspTally {
  public:
   /// After a step of the contact.
   void addStep(const ContactCertificate& certificate, double seconds);
-  /// After a frame is drawn.
+  /// After the steps of a frame.
   void addFrame(const ToolTouch& touch);
   int frames() const { return frames_; }
 

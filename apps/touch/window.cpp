@@ -4,6 +4,7 @@
 #include "touch/window.h"
 
 #include <vtkCamera.h>
+#include <vtkCullerCollection.h>
 #include <vtkInteractorStyleHaptic.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -24,6 +25,7 @@ Window::Window(bool offScreen) {
   window_->SetSize(1000, 750);
   window_->SetWindowName("Palpate");
   renderer_->SetBackground(1, 1, 1);
+  renderer_->GetCullers()->RemoveAllItems();  // all is in sight
   window_->AddRenderer(renderer_);
   interactor_->SetRenderWindow(window_);
 }

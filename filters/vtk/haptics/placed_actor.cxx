@@ -7,16 +7,29 @@
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
+#include "vtkShaderProperty.h"
 #include "vtkTransform.h"
 
 namespace palpate
 {
+namespace
+{
+/// VTK's shader raises to the power of a gloss that there is none of; drawn by the CPU, that is a sixth of a
+/// frame.
+void leaveOutGloss(vtkActor* actor)
+{
+  actor->GetShaderProperty()->AddFragmentShaderReplacement(
+    "pow(df, specularPower)", false, "0.0", true);
+}
+} // namespace
+
 void setSurface(vtkActor* actor, vtkAlgorithmOutput* surface)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(surface);
   mapper->ScalarVisibilityOff();
   actor->SetMapper(mapper);
+  leaveOutGloss(actor);
 }
 
 void setColour(vtkActor* actor, const double colour[3])
@@ -39,6 +52,7 @@ void PlacedActor::SetSurface(vtkPolyData* surface)
   mapper->SetInputData(surface);
   mapper->ScalarVisibilityOff();
   this->Drawn->SetMapper(mapper);
+  leaveOutGloss(this->Drawn);
 }
 
 void PlacedActor::MoveTo(const Eigen::Vector3d& place, const Eigen::Quaterniond& orientation,
