@@ -5,29 +5,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "haptics/hand_grip.h"
 
 namespace palpate::app {
 namespace {
 
-// Parts of the body's extent along the fingers: 6 mm of a kidney, which is a newton or two a finger
-// at 8 kPa.
-constexpr double kFingerDepth = 0.055, kPalmDepth = 0.05;
-constexpr double kRubbing = 0.02;  ///< to either side
-constexpr double kHover = 0.5;     ///< lengths of the hand, from where it comes
+// Parts of the body's extent along the fingers: 3 and 2 mm of a kidney, which is one to three
+// newtons a finger at 8 kPa.
+constexpr double kFingerDepth = 0.025, kPalmDepth = 0.02;
+constexpr double kAlong = 0.12, kAside = 0.16;  ///< radii of the ellipse that it strokes
+constexpr double kSmallest = 0.1;               ///< ellipse, over these
+constexpr int kPlaces = 64;                     ///< of it, where the hand's shape is found
+constexpr double kHover = 0.5;                  ///< lengths of the hand, from where it comes
 
 // Seconds.
 constexpr double kReached = 0.6, kClosing = 0.5, kClosed = 0.75;
-constexpr double kRegrasp = 0.9, kPeriod = 0.32, kOpening = 0.06, kClosesAgain = 0.08;
-constexpr int kRegrasps = 5;
-constexpr double kRub = 2.7, kRubbed = 3.6, kRubPeriod = 0.45, kEnd = 4;
+constexpr double kStroke = 0.85, kTurn = 0.4, kEasing = 0.1;
+constexpr int kTurns = 5;
+constexpr double kRegrasp = 3.05, kPeriod = 0.32, kOpening = 0.06, kClosesAgain = 0.08, kEnd = 4;
+constexpr int kRegrasps = 2;
 // How far it lets go: part of the way that the joints closed, lengths of the hand.
 constexpr double kOpened = 0.4, kLifted = 0.06;
 
 double smooth(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+/// The way of what moves at a speed of one, that rises from zero at first and falls to it at last.
+double eased(double t, double duration) {
+  t = std::clamp(t, 0.0, duration);
+  const double first = std::min(t, kEasing), last = std::max(0.0, t - (duration - kEasing));
+  return t - first + (first * first - last * last) / (2 * kEasing);
 }
 
 /// A hand about to grasp: fingers a little bent, the thumb aside.
@@ -49,13 +60,14 @@ ToolPose openHand() {
 struct Gesture {
   double height;  ///< above the grasp, lengths of the hand
   double closed;  ///< part of the way that joints bend
-  double aside;   ///< parts of the body's extent
+  double turns;   ///< around the ellipse
 };
 
 /// What the hand does at a time, s.
 Gesture gestureAt(double time) {
   Gesture gesture{kHover * (1 - smooth(time / kReached)),
-                  smooth((time - kClosing) / (kClosed - kClosing)), 0};
+                  smooth((time - kClosing) / (kClosed - kClosing)),
+                  eased(time - kStroke, kTurns * kTurn + kEasing) / kTurn};
   const double regrasp = time - kRegrasp;
   if (regrasp > 0 && regrasp < kRegrasps * kPeriod) {
     const double phase = std::fmod(regrasp, kPeriod);
@@ -63,9 +75,52 @@ Gesture gestureAt(double time) {
     gesture.height = kLifted * open;
     gesture.closed = 1 - kOpened * open;
   }
-  if (time > kRub && time < kRubbed)
-    gesture.aside = kRubbing * std::sin(2 * EIGEN_PI * (time - kRub) / kRubPeriod);
   return gesture;
+}
+
+/// A hand that lies open on the body at each place of the ellipse. The first is on the thumb's
+/// side.
+/// @param size  of the ellipse, over that which the radii tell.
+std::vector<ToolPose> laidAround(const HandGrip& grip, const ToolPose& open,
+                                 const GraspApproach& approach, double farthest, double size) {
+  const Eigen::Vector3d along = size * kAlong * approach.extent * approach.fingers;
+  const Eigen::Vector3d aside =
+      size * kAside * approach.extent * approach.from.cross(approach.fingers);
+  std::vector<ToolPose> laid;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double angle = 2 * EIGEN_PI * k / kPlaces;
+    ToolPose pose = open;
+    pose.position += std::sin(angle) * along + std::cos(angle) * aside;
+    laid.push_back(grip.lowered(pose, -approach.from, farthest, kPalmDepth * approach.extent));
+  }
+  return laid;
+}
+
+/// One that holds it from there; the ellipse is as large as it keeps clear of the support.
+std::vector<ToolPose> heldAround(const HandGrip& grip, const ToolPose& open,
+                                 const GraspApproach& approach, double farthest) {
+  std::vector<ToolPose> poses = laidAround(grip, open, approach, farthest, 1);
+  const auto meetsSupport = [&](const ToolPose& pose) {
+    return grip.depth(pose, 0, kHandCapsuleCount, true) > 0;
+  };
+  for (double size = 0.5; size > kSmallest; size /= 2)
+    if (std::any_of(poses.begin(), poses.end(), meetsSupport))
+      poses = laidAround(grip, open, approach, farthest, size);
+  for (ToolPose& pose : poses) pose = grip.closed(pose, kFingerDepth * approach.extent);
+  return poses;
+}
+
+/// Between two of them.
+ToolPose heldAt(const std::vector<ToolPose>& held, double turns) {
+  const double place = (turns - std::floor(turns)) * kPlaces;
+  const auto first = static_cast<int>(place);
+  const double share = place - first;
+  ToolPose pose = held[first % kPlaces];
+  const ToolPose& next = held[(first + 1) % kPlaces];
+  pose.position += share * (next.position - pose.position);
+  for (std::size_t j = 0; j < HandJointCount; ++j)
+    pose.joints[j] += share * (next.joints[j] - pose.joints[j]);
+  return pose;
 }
 
 }  // namespace
@@ -94,8 +149,7 @@ DeviceRecording graspMotion(const SceneBody& body, const GraspApproach& approach
   const Eigen::Vector3d knuckle =
       hand.capsules(open)[16].end;  // the middle finger's, over the middle
   open.position = middle - knuckle + knuckle.dot(from) * from + hand.length() * from;
-  open = grip.lowered(open, -from, 2 * hand.length(), kPalmDepth * approach.extent);
-  const ToolPose closed = grip.closed(open, kFingerDepth * approach.extent);
+  const std::vector<ToolPose> held = heldAround(grip, open, approach, 2 * hand.length());
 
   DeviceRecording trace;
   trace.info.name = "grasping hand";
@@ -103,11 +157,10 @@ DeviceRecording graspMotion(const SceneBody& body, const GraspApproach& approach
     const Gesture gesture = gestureAt(i / kMomentsASecond);
     DeviceState state;
     state.sequence = static_cast<std::uint64_t>(i) + 1;
-    state.pose = open;
-    state.pose.position += gesture.height * hand.length() * from +
-                           gesture.aside * approach.extent * from.cross(fingers);
+    state.pose = heldAt(held, gesture.turns);
+    state.pose.position += gesture.height * hand.length() * from;
     for (std::size_t j = 0; j < HandJointCount; ++j)
-      state.pose.joints[j] += gesture.closed * (closed.joints[j] - open.joints[j]);
+      state.pose.joints[j] += (1 - gesture.closed) * (open.joints[j] - state.pose.joints[j]);
     trace.moments.push_back({true, state});
   }
   return trace;

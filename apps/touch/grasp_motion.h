@@ -22,9 +22,9 @@ GraspApproach approachTo(const SceneBody& body, const Eigen::Vector3d& freeSide)
 
 constexpr double kMomentsASecond = 125;  ///< of the motion below: as many as a glove reports
 
-/// A hand that comes down on a body, closes around it, lets go and grasps it again five times, rubs
-/// it and holds it: four seconds at the pace of hands. How far each joint closes follows from the
-/// body's shape.
+/// A hand that comes down on a body, closes around it, strokes it in five rounds of an ellipse with
+/// all its fingers, and lets go and grasps it again twice: four seconds at the pace of hands (a
+/// kidney of 11 cm is stroked at 0.25 m/s). How far each joint closes follows from the body's shape.
 DeviceRecording graspMotion(const SceneBody& body, const GraspApproach& approach,
                             const HandModel& hand);
 

@@ -308,6 +308,22 @@ class Grasp(Program):
         self.assertEqual(self.numbers(still, "constraint dof "), [0, 0, 0])
         self.assertEqual(self.numbers(still, "thumb +force, N "), [0] * 5)
 
+    def test_strokes_a_kidney_over_more_than_a_hundred_dof_a_frame_with_light_fingers(self):
+        kidney, model = self.folder / "kidney.vtp", self.folder / "model.vtp"
+        self.run_well("refine", DATA / "kidney.vtp", kidney, "--levels", 2)
+        self.run_well("precompute", kidney, model, "--young", 8e3, "--poisson", 0.45)
+        printed = self.run_well("grasp", model)
+        self.assertEqual(self.numbers(printed, "model "), [966])
+        touching = self.numbers(printed, "constraint dof ")[2]
+        median, _, bound, many = self.numbers(printed, "  changed since the last frame")
+        self.assertEqual(bound, 100)
+        self.assertTrue(median > bound and many > 0.5 * touching, printed)
+        residual, unsettled, left_out = self.numbers(printed, "worst residual ")
+        self.assertTrue(residual < 1e-8 and unsettled == left_out == 0, printed)
+        for finger in ("thumb", "index", "middle", "ring", "little", "palm"):
+            largest = self.numbers(printed, rf"{finger} +force, N ")[-1]
+            self.assertTrue(0.3 < largest < 3, printed)  # newtons: what devices are limited to
+
     def test_refuses_other_devices_and_numbers(self):
         self.run_badly("needs a glove's recording", "grasp", self.model, "--device", "simulated")
         for frames in (-3, 0, 1000000):
