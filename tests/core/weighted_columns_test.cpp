@@ -21,7 +21,7 @@ TYPED_TEST_SUITE(WeightedColumns, Scalars);
 
 TYPED_TEST(WeightedColumns, AreAddedToWhatIsThereInDouble) {
   constexpr int guard = 3;
-  for (int rows = 0; rows <= 35; ++rows)
+  for (int rows = 0; rows <= 175; ++rows)  // below and above what prefetches need
     for (int count = 0; count <= kColumnGroup; ++count) {
       const auto columns = TestFixture::Matrix::Random(rows, count).eval();
       const Eigen::VectorXd weights = Eigen::VectorXd::Random(count);

@@ -13,24 +13,34 @@ constexpr int kWidth = static_cast<int>(Batch::size);
 constexpr int kUnroll = 2;           ///< independent sums, to hide the latency of a multiply-add
 constexpr int kPrefetchBytes = 512;  ///< from the second-level cache to the first
 
-template <int Count, class Scalar>
-void addColumns(const Scalar* const* columns, const double* weights, int rowCount, double* out) {
+/// Rows from one on, in whole steps up to an end. @return the first that is left.
+template <bool Prefetches, int Count, class Scalar>
+int addRows(const Scalar* const* columns, const Batch (&weight)[Count], int i, int end,
+            double* out) {
   constexpr int step = kUnroll * kWidth;
-  Batch weight[Count];
-  for (int c = 0; c < Count; ++c) weight[c] = Batch(weights[c]);
-  int i = 0;
-  for (; i + step <= rowCount; i += step) {
+  for (; i + step <= end; i += step) {
     Batch sum[kUnroll];
     for (int u = 0; u < kUnroll; ++u) sum[u] = Batch::load_unaligned(out + i + u * kWidth);
     for (int c = 0; c < Count; ++c) {
       const Scalar* column = columns[c] + i;
-      for (unsigned byte = 0; byte < step * sizeof(Scalar); byte += 64)
+      for (unsigned byte = 0; Prefetches && byte < step * sizeof(Scalar); byte += 64)
         prefetch(reinterpret_cast<const char*>(column) + kPrefetchBytes + byte);
       for (int u = 0; u < kUnroll; ++u)
         sum[u] = xsimd::fma(weight[c], loadAsDouble(column + u * kWidth), sum[u]);
     }
     for (int u = 0; u < kUnroll; ++u) sum[u].store_unaligned(out + i + u * kWidth);
   }
+  return i;
+}
+
+template <int Count, class Scalar>
+void addColumns(const Scalar* const* columns, const double* weights, int rowCount, double* out) {
+  Batch weight[Count];
+  for (int c = 0; c < Count; ++c) weight[c] = Batch(weights[c]);
+  // What lies beyond the rows is not asked for: of short columns that would be a good part.
+  const int last = rowCount - kPrefetchBytes / static_cast<int>(sizeof(Scalar));
+  int i = addRows<true>(columns, weight, 0, last, out);
+  i = addRows<false>(columns, weight, i, rowCount, out);
   for (; i < rowCount; ++i)
     for (int c = 0; c < Count; ++c) out[i] += weights[c] * columns[c][i];
 }
