@@ -44,6 +44,10 @@ TEST_P(InverseUpdates, ProductsOnBothSidesAreThoseOfThePlainMatrix) {
     const Eigen::MatrixXd expectedY = matrix.transpose() * c.all.topRows(size);
     EXPECT_LE((x.topRows(size) - expectedX).lpNorm<Eigen::Infinity>(), kTolerance) << size;
     EXPECT_LE((y.topRows(size) - expectedY).lpNorm<Eigen::Infinity>(), kTolerance) << size;
+    if (count < 3) return;
+    Eigen::MatrixXd alone = Eigen::MatrixXd::Constant(stride, count, 7);
+    multiplyTransposed(inverse.data(), size, stride, c.data(), alone.data());
+    EXPECT_EQ(alone, y) << size;
   });
 }
 

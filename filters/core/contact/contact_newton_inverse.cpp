@@ -82,6 +82,13 @@ void ContactNewtonInverse::multiplyBoth(const double* b, const double* c, double
   work_.add(6 * entries, entries);
 }
 
+/// y = H^T c alone.
+void ContactNewtonInverse::multiplyRows(const double* c, double* y) const noexcept {
+  multiplyTransposed(inverse_.data(), 3 * active_, stride_, c, y);
+  const double entries = 3. * active_ * padded(3 * active_);
+  work_.add(3 * entries, entries);
+}
+
 /// H += x y^T, three columns each.
 void ContactNewtonInverse::addProduct(const double* x, const double* y) noexcept {
   addOuterProduct(inverse_.data(), 3 * active_, stride_, x, y, 3);
@@ -192,9 +199,9 @@ void ContactNewtonInverse::erase(int contact) noexcept {
 /// With new rows R: H -= H_i (R H)_ii^-1 (R H - E_i^T), after which R H = E_i^T whatever H was.
 void ContactNewtonInverse::replace(int contact, const Eigen::Matrix3d& share) noexcept {
   const int slot = slotOf_[contact];
-  double *rows = left_.data(), *product = y_.data(), *unused = x_.data();
+  double *rows = left_.data(), *product = y_.data();
   setRows(contact, share, rows);
-  multiplyBoth(rows, rows, unused, product);
+  multiplyRows(rows, product);
   for (int j = 0; j < 3; ++j)
     std::fill(product + j * stride_ + 3 * active_, product + j * stride_ + padded(3 * active_), 0);
   Eigen::Matrix3d pivot;

@@ -73,6 +73,7 @@ class ContactNewtonInverse {
   void replace(int contact, const Eigen::Matrix3d& share) noexcept;
   void scaleColumns(const double* from, const Eigen::Matrix3d& by, double* to) const noexcept;
   void multiplyBoth(const double* b, const double* c, double* x, double* y) const noexcept;
+  void multiplyRows(const double* c, double* y) const noexcept;
   void addProduct(const double* x, const double* y) noexcept;
 
   const ContactCompliance* compliance_;

@@ -23,6 +23,11 @@ constexpr int padded(int size) {
 void multiplyBothSides(const double* inverse, int size, int stride, const double* b,
                        const double* c, int count, double* x, double* y);
 
+/// y = inverse^T * c alone, three columns.
+/// @param c  size by 3, padded with zeros.
+/// @param y  size by 3, overwritten.
+void multiplyTransposed(const double* inverse, int size, int stride, const double* c, double* y);
+
 /// inverse += x * y^T, reading and writing the inverse once.
 void addOuterProduct(double* inverse, int size, int stride, const double* x, const double* y,
                      int count);

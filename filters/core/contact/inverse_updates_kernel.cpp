@@ -38,6 +38,24 @@ void multiplyColumns(const double* columns, int rows, int stride, const double* 
     for (int k = 0; k < Count; ++k) y[k * stride + g] = xsimd::hadd(sum[g][k]);
 }
 
+/// The second of these products alone.
+template <int Group, int Count>
+void projectOnColumns(const double* columns, int rows, int stride, const double* c, double* y) {
+  Batch sum[Group][Count];
+  for (int g = 0; g < Group; ++g)
+    for (int k = 0; k < Count; ++k) sum[g][k] = Batch(0);
+  for (int i = 0; i < rows; i += kWidth) {
+    Batch entry[Group];
+    for (int g = 0; g < Group; ++g) entry[g] = Batch::load_unaligned(columns + g * stride + i);
+    for (int k = 0; k < Count; ++k) {
+      const Batch left = Batch::load_unaligned(c + k * stride + i);
+      for (int g = 0; g < Group; ++g) sum[g][k] = xsimd::fma(entry[g], left, sum[g][k]);
+    }
+  }
+  for (int g = 0; g < Group; ++g)
+    for (int k = 0; k < Count; ++k) y[k * stride + g] = xsimd::hadd(sum[g][k]);
+}
+
 template <int Group, int Count>
 void addToColumns(double* columns, int rows, int stride, const double* x, const double* y) {
   Batch weight[Group][Count];
@@ -92,6 +110,14 @@ void multiplyBothSides(const double* inverse, int size, int stride, const double
     case 1:
       return multiply<1>(inverse, size, stride, b, c, x, y);
   }
+}
+
+void multiplyTransposed(const double* inverse, int size, int stride, const double* c, double* y) {
+  const int rows = paddedRows(size);
+  int j = 0;
+  for (; j + 4 <= size; j += 4)
+    projectOnColumns<4, 3>(inverse + j * long(stride), rows, stride, c, y + j);
+  for (; j < size; ++j) projectOnColumns<1, 3>(inverse + j * long(stride), rows, stride, c, y + j);
 }
 
 void addOuterProduct(double* inverse, int size, int stride, const double* x, const double* y,
