@@ -35,6 +35,7 @@ bool FrictionalContactSolver::freshStep(Stage stage) noexcept {
 /// Newton's step as it is written: what opened contacts change for the others is linearised.
 void FrictionalContactSolver::linearStep() noexcept {
   const int size = 3 * count();
+  isCurrent_ = false;
   own_.add(kLinearised * count(), 0);
   step_.head(size) = displacement_.head(size);
   for (int i = 0; i < count(); ++i) {
@@ -60,6 +61,7 @@ void FrictionalContactSolver::damp(double before) noexcept {
     own_.add(kHalving * count(), 0);
     if (residual_.head(size).norm() <= (1 - kArmijo * share) * before) return;
     share /= 2;
+    isCurrent_ = false;
     forces_.head(size) = start_.head(size) + share * step_.head(size);
   }
 }

@@ -19,8 +19,8 @@ constexpr int kSweeps = 16;             ///< at a time
 constexpr double kLargestDrift = 0.05;  ///< of a moving contact's weights, until its rows are old
 
 // Multiplications, as they are written below, a contact.
-constexpr double kProjection = 13, kSlip = 50;  ///< and more if it slips
-constexpr double kResidual = 9;                 ///< three squared lengths
+constexpr double kProjection = 13, kSlip = 12, kSlipShare = 38;  ///< and more if it slips
+constexpr double kResidual = 9;                                  ///< three squared lengths
 constexpr double kStaleness = 9;
 constexpr double kClipping = 21;
 
@@ -51,12 +51,14 @@ FrictionalContactSolver::FrictionalContactSolver(
   status_.resize(capacity, ContactStatus::Open);
   wanted_.resize(capacity);
   drift_.resize(capacity);
-  for (Eigen::VectorXd* vector : {&forces_, &displacement_, &residual_, &best_, &start_, &step_})
+  for (Eigen::VectorXd* vector :
+       {&forces_, &displacement_, &residual_, &best_, &bestDisplacement_, &start_, &step_})
     vector->setZero(compliance_->stride());
 }
 
 bool FrictionalContactSolver::add(const ContactSite& site) noexcept {
   if (!compliance_->add(site)) return false;
+  isCurrent_ = false;
   inverse_.append();
   const int n = count() - 1;
   wanted_[n].setZero();
@@ -68,6 +70,7 @@ bool FrictionalContactSolver::add(const ContactSite& site) noexcept {
 }
 
 void FrictionalContactSolver::remove(int contact) noexcept {
+  isCurrent_ = isCurrent_ && force(contact).isZero(0);
   inverse_.remove(contact);
   compliance_->remove(contact);
   const int last = count();
@@ -81,7 +84,18 @@ void FrictionalContactSolver::remove(int contact) noexcept {
   }
 }
 
+void FrictionalContactSolver::turn(int body, const Eigen::Matrix3d& orientation) noexcept {
+  isCurrent_ = false;
+  compliance_->turn(body, orientation);
+}
+
+void FrictionalContactSolver::setForce(int contact, const Eigen::Vector3d& force) noexcept {
+  isCurrent_ = false;
+  forces_.segment<3>(3 * contact) = force;
+}
+
 void FrictionalContactSolver::move(int contact, const ContactSite& site) noexcept {
+  isCurrent_ = false;
   drift_[contact] += driftBetween(site, compliance_->site(contact));
   compliance_->move(contact, site);
   if (drift_[contact] <= kLargestDrift) return;
@@ -90,6 +104,7 @@ void FrictionalContactSolver::move(int contact, const ContactSite& site) noexcep
 }
 
 void FrictionalContactSolver::setRigidStiffness(double rigidStiffness) noexcept {
+  isCurrent_ = false;
   compliance_->setRigidStiffness(rigidStiffness);
   for (int i = 0; i < count(); ++i)
     if (compliance_->isOnFixed(i)) inverse_.moved(i);
@@ -100,11 +115,12 @@ void FrictionalContactSolver::clear() noexcept {
   while (count() > 0) remove(count() - 1);
 }
 
-/// P(f - r v) of one contact and its derivative D by f - r v.
+/// P(f - r v) of one contact, and what its derivative by f - r v is made of where it slips.
 struct FrictionalContactSolver::Projection {
   Eigen::Vector3d force;
-  Eigen::Matrix3d share;
   ContactStatus status;
+  Eigen::Vector3d direction;  ///< of the shear, or zero
+  double turning;             ///< the limit over the shear
 };
 
 FrictionalContactSolver::Projection FrictionalContactSolver::project(int contact) const noexcept {
@@ -112,25 +128,41 @@ FrictionalContactSolver::Projection FrictionalContactSolver::project(int contact
   const ContactConditions& conditions = conditions_[contact];
   const Eigen::Vector3d z =
       force(contact) - inverse_.scale(contact) * (displacement(contact) + conditions.offset);
-  if (conditions.bilateral) return {z, Eigen::Matrix3d::Identity(), ContactStatus::Stick};
+  Projection projection;
+  projection.force = z;
+  projection.status = ContactStatus::Stick;
+  if (conditions.bilateral) return projection;
   const Eigen::Vector3d& n = conditions.normal;
   const double pressure = n.dot(z);
-  if (!(pressure > 0))
-    return {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), ContactStatus::Open};
+  if (!(pressure > 0)) {
+    projection.force.setZero();
+    projection.status = ContactStatus::Open;
+    return projection;
+  }
   const Eigen::Vector3d shear = z - pressure * n;
   const double length = shear.norm(), limit = conditions.friction * pressure;
-  if (length <= limit && limit > 0) return {z, Eigen::Matrix3d::Identity(), ContactStatus::Stick};
+  if (length <= limit && limit > 0) return projection;
   own_.add(kSlip, 0);
-  Projection slip;
-  slip.status = ContactStatus::Slip;
-  const Eigen::Vector3d direction = length > 0 ? (shear / length).eval() : Eigen::Vector3d::Zero();
-  slip.force = pressure * n + limit * direction;
-  slip.share = (n + conditions.friction * direction) * n.transpose();
-  if (length > 0)
-    slip.share +=
-        limit / length *
-        (Eigen::Matrix3d::Identity() - n * n.transpose() - direction * direction.transpose());
-  return slip;
+  projection.status = ContactStatus::Slip;
+  projection.direction = length > 0 ? (shear / length).eval() : Eigen::Vector3d::Zero();
+  projection.turning = length > 0 ? limit / length : 0;
+  projection.force = pressure * n + limit * projection.direction;
+  return projection;
+}
+
+/// The derivative D.
+Eigen::Matrix3d FrictionalContactSolver::shareOf(int contact,
+                                                 const Projection& projection) const noexcept {
+  if (projection.status == ContactStatus::Open) return Eigen::Matrix3d::Zero();
+  if (projection.status == ContactStatus::Stick) return Eigen::Matrix3d::Identity();
+  own_.add(kSlipShare, 0);
+  const ContactConditions& conditions = conditions_[contact];
+  const Eigen::Vector3d &n = conditions.normal, &direction = projection.direction;
+  Eigen::Matrix3d share = (n + conditions.friction * direction) * n.transpose();
+  if (projection.turning > 0)
+    share += projection.turning *
+             (Eigen::Matrix3d::Identity() - n * n.transpose() - direction * direction.transpose());
+  return share;
 }
 
 double FrictionalContactSolver::largestForce() const noexcept {
@@ -150,7 +182,9 @@ bool FrictionalContactSolver::hasWorkFor(double flops) const noexcept {
 }
 
 void FrictionalContactSolver::updateDisplacements() noexcept {
+  if (isCurrent_) return;
   compliance_->multiply(forces_.data(), displacement_.data());
+  isCurrent_ = true;
 }
 
 /// Displacements, the residual f - P(f - r v) and the shares; returns the largest residual, N, and
@@ -161,7 +195,7 @@ double FrictionalContactSolver::evaluate() noexcept {
   largest_ = 0;  // squared
   for (int i = 0; i < count(); ++i) {
     const Projection projection = project(i);
-    wanted_[i] = projection.share;
+    wanted_[i] = shareOf(i, projection);
     status_[i] = projection.status;
     residual_.segment<3>(3 * i) = force(i) - projection.force;
     const double size = residual_.segment<3>(3 * i).squaredNorm();
@@ -224,6 +258,7 @@ int FrictionalContactSolver::mostOutdated() noexcept {
 /// f -= H (f - P). Contacts that open lose their force first, so that the others answer to that.
 void FrictionalContactSolver::newtonStep() noexcept {
   bool opened = false;
+  isCurrent_ = false;
   for (int i = 0; i < count(); ++i) {
     if (status_[i] != ContactStatus::Open || forces_.segment<3>(3 * i).isZero(0)) continue;
     compliance_->addColumn(i, -force(i), displacement_.data());
@@ -241,6 +276,7 @@ void FrictionalContactSolver::newtonStep() noexcept {
 
 /// One round of nonlinear Gauss-Seidel: each contact in turn is projected, the others held.
 void FrictionalContactSolver::sweep() noexcept {
+  isCurrent_ = false;
   for (int i = 0; i < count(); ++i) {
     const Eigen::Vector3d before = force(i);
     const Eigen::Vector3d after = project(i).force;
@@ -254,7 +290,6 @@ void FrictionalContactSolver::sweep() noexcept {
 /// and find which contacts bear forces: an inverse made afresh after them is of use.
 FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexcept {
   if (stage == Stage::Whole) return Stage::Damped;
-  evaluate();
   sweep();  // at least one, so that solves that are cut get on
   for (int k = 1; k < kSweeps && hasWorkFor(passes(3)); ++k) sweep();
   return stage == Stage::Kept ? Stage::Whole : Stage::Kept;
@@ -263,6 +298,7 @@ FrictionalContactSolver::Stage FrictionalContactSolver::next(Stage stage) noexce
 /// Puts every force into its cone. @return the largest excess there was over the largest force.
 double FrictionalContactSolver::clipped() noexcept {
   double excess = 0;
+  isCurrent_ = false;
   own_.add(kClipping * count(), 0);
   for (int i = 0; i < count(); ++i) {
     const ContactConditions& conditions = conditions_[i];
@@ -299,13 +335,14 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
   int withoutGain = unsettled_ ? kPatience + 1 : 0;
   updatesBefore_ = inverse_.updates();
   workBefore_ = 2 * work().multiplications;
-  best_.head(size).setZero();
+  for (Eigen::VectorXd* vector : {&best_, &bestDisplacement_}) vector->head(size).setZero();
   for (;; ++certificate.iterations) {
     const double residual = evaluate();
     if (certificate.iterations == 0) first = residual;
     if (residual < best) {
       best = residual;
       best_.head(size) = forces_.head(size);
+      bestDisplacement_.head(size) = displacement_.head(size);
     }
     if (certificate.iterations > 0)
       withoutGain = residual < kEnoughGain * goal ? 0 : withoutGain + 1;
@@ -324,6 +361,8 @@ ContactCertificate FrictionalContactSolver::solve() noexcept {
     }
     if (isStuck || (stage != Stage::Kept && !freshStep(stage))) {
       forces_.head(size) = best_.head(size);
+      displacement_.head(size) = bestDisplacement_.head(size);
+      isCurrent_ = true;
       stage = next(stage);
       withoutGain = 0;
       goal = last = none;

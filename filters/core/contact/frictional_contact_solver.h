@@ -85,9 +85,7 @@ class FrictionalContactSolver {
 
   /// As ContactCompliance's. Newton's matrix follows as its rows are refreshed, and at once for a
   /// contact that has moved by more than a few hundredths of its triangle.
-  void turn(int body, const Eigen::Matrix3d& orientation) noexcept {
-    compliance_->turn(body, orientation);
-  }
+  void turn(int body, const Eigen::Matrix3d& orientation) noexcept;
   void move(int contact, const ContactSite& site) noexcept;
   /// As ContactCompliance's; Newton's matrix follows at once.
   void setRigidStiffness(double rigidStiffness) noexcept;
@@ -101,9 +99,7 @@ class FrictionalContactSolver {
 
   /// On the body of the site's first part, N.
   Eigen::Vector3d force(int contact) const { return forces_.segment<3>(3 * contact); }
-  void setForce(int contact, const Eigen::Vector3d& force) {
-    forces_.segment<3>(3 * contact) = force;
-  }
+  void setForce(int contact, const Eigen::Vector3d& force) noexcept;
   /// W f: the displacement of a contact under all forces of the last solve or update, m.
   Eigen::Vector3d displacement(int contact) const { return displacement_.segment<3>(3 * contact); }
   ContactStatus status(int contact) const { return status_[contact]; }
@@ -116,6 +112,7 @@ class FrictionalContactSolver {
  private:
   struct Projection;
   Projection project(int contact) const noexcept;
+  Eigen::Matrix3d shareOf(int contact, const Projection& projection) const noexcept;
   double evaluate() noexcept;
   double clipped() noexcept;
   bool isStale(int contact) const noexcept;
@@ -140,7 +137,7 @@ class FrictionalContactSolver {
   std::vector<ContactStatus> status_;
   std::vector<double> drift_;            ///< sums of the weights' changes since rows were made
   std::vector<Eigen::Matrix3d> wanted_;  ///< D at the last evaluation
-  Eigen::VectorXd forces_, displacement_, residual_, best_;
+  Eigen::VectorXd forces_, displacement_, residual_, best_, bestDisplacement_;
   Eigen::VectorXd start_, step_;  ///< of a damped step
   long updatesBefore_ = 0;        ///< of the inverse, before this solve
   double workBefore_ = 0;         ///< flops before this solve
@@ -149,6 +146,7 @@ class FrictionalContactSolver {
   double largest_ = 0;            ///< force at the last evaluation, N
   mutable ContactWork own_;       ///< of vectors
   bool unsettled_ = false;        ///< whether the last solve was cut
+  bool isCurrent_ = false;        ///< whether displacements are those of the forces
 };
 
 }  // namespace palpate
