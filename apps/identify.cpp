@@ -207,6 +207,9 @@ void printParameters(vtkPolyData* model) {
     if (value(i, 1) > 0)
       text += " +- " + number(value(i, 1), 2) + " (95 % by noise: " + number(value(i, 2)) + " to " +
               number(value(i, 3)) + ")";
+    const double byProbes = component(model, "ProbewiseDeviation", static_cast<vtkIdType>(i));
+    if (lacksFit(model) && byProbes >= 0)
+      text += ", +- " + number(byProbes, 2) + " by probes left out";
     printRow(names[i] + (units[i].empty() ? "" : ", " + units[i]), text);
   }
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -289,6 +292,7 @@ void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
   printRow("noise", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m");
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     printRow("noise over that given", number(misfit, 3));
+  printRow("residuals of neighbours", neighboursText(model));
   printProbes(model);
   printRow("outliers", measurements.outliersOf(model));
   if (const double error = fieldNumber(model, "HoldOutError", -1); error >= 0)

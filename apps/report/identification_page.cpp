@@ -72,6 +72,8 @@ std::string identified(vtkPolyData* model) {
            number(fieldNumber(model, "CorrectionSmoothing", -1), 3) +
            " (noise over correction, variances).</p>\n";
   text += "<p>Deviations and intervals are those that the noise of the measurements makes";
+  if (lacksFit(model))
+    text += " <b>and too small here</b>, as the model differs from the body by more (below)";
   const double error = fieldNumber(model, "ErrorEstimate", -1);
   text += error >= 0 ? "; the mesh may add <b>" + percent(error) + "</b> to Young's modulus"
                      : "; what the mesh adds was not estimated: compare with a finer one";
@@ -164,6 +166,7 @@ std::string fit(vtkPolyData* model, const MeasuredData& data, const RunDescripti
       number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m";
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)
     text += ", " + number(misfit, 3) + " times that given";
+  if (!isCorrection(model)) text += "; residuals of neighbouring markers: " + neighboursText(model);
   const bool isPolydata = isTableInArrays(run["--measurements"]);
   return text + ".</p>\n" + predictionPlot(data) + residualPlot(data) +
          outlierTable(data, isPolydata ? "tuple" : "line");

@@ -61,6 +61,18 @@ RegistrationText registrationText(vtkPolyData* model) {
               vectorIn(vector("RegistrationDeviation", 3), 2)};
 }
 
+std::string neighboursText(vtkPolyData* model) {
+  const auto value = [&](int c) { return fieldComponentAt(model, "NeighbourCorrelation", 0, c); };
+  return "correlation " + number(value(0), 2) + ", as much in " + percent(value(1)) +
+         " of tables of noise";
+}
+
+bool lacksFit(vtkPolyData* model) {
+  for (const std::string& warning : fieldStrings(model, "Warnings"))
+    if (warning.rfind("residuals of neighbouring markers", 0) == 0) return true;
+  return false;
+}
+
 std::string fileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
@@ -76,6 +88,8 @@ std::string listOf(const std::vector<std::string>& sentences) {
 std::string parameterTable(vtkPolyData* model) {
   const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames"),
                                  units = fieldStrings(model, "IdentifiedUnits");
+  std::vector<std::string> head{"", "value", "standard deviation", "95 % from", "to"};
+  if (lacksFit(model)) head.emplace_back("deviation by probes left out");
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto value = [&](int c) { return fieldComponentAt(model, "IdentifiedParameters", i, c); };
@@ -83,8 +97,11 @@ std::string parameterTable(vtkPolyData* model) {
     rows.push_back({withUnit(names[i], units[i]), number(value(0)),
                     isKnown ? number(value(1), 2) : "–", isKnown ? number(value(2)) : "–",
                     isKnown ? number(value(3)) : "–"});
+    if (!lacksFit(model)) continue;
+    const double byProbes = fieldComponentAt(model, "ProbewiseDeviation", i);
+    rows.back().push_back(byProbes >= 0 ? number(byProbes, 2) : "–");
   }
-  return html::table({"", "value", "standard deviation", "95 % from", "to"}, rows);
+  return html::table(head, rows);
 }
 
 std::string correlationTable(vtkPolyData* model) {

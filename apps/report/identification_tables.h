@@ -26,7 +26,13 @@ struct RegistrationText {
 };
 RegistrationText registrationText(vtkPolyData* model);
 
-/// What was identified, with deviations and intervals.
+/// How residuals of neighbouring markers under one probe go together.
+std::string neighboursText(vtkPolyData* model);
+/// Whether more than noise does, so that deviations are too small.
+bool lacksFit(vtkPolyData* model);
+
+/// What was identified, with deviations and intervals; where the fit lacks, with those by probes
+/// left out, too.
 std::string parameterTable(vtkPolyData* model);
 /// Nothing for a single parameter.
 std::string correlationTable(vtkPolyData* model);

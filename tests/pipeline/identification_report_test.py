@@ -170,9 +170,29 @@ class Identification(unittest.TestCase):
         value, deviation, low, high = palpate.array(model, "IdentifiedParameters")[1]
         self.assertEqual((value, high), (0.2, 0.2))
         self.assertLess(low, high)
-        self.assertEqual(table_with(page, "standard deviation")[2][2:],
+        self.assertEqual(table_with(page, "standard deviation")[2][2:5],
                          [f"{deviation:.2g}", f"{low:.4g}", f"{high:.4g}"])
         self.assertIn("Poisson's ratio is at the bound 0.2", text_of(page))
+
+    def test_of_a_model_that_differs_says_that_deviations_are_too_small(self):
+        surface, _, _ = files()
+        model, page, printed = made("coarse", "identify", surface, ("--measurements", place("fine.csv"), "--folds", 0))
+        correlation, by_chance = palpate.array(model, "NeighbourCorrelation").ravel()
+        self.assertLess(by_chance, 0.001)
+        said = f"correlation {correlation:.2g}, as much in {100 * by_chance:.3g} % of tables of noise"
+        for text in (text_of(page), printed):
+            self.assertIn(said, text)
+        self.assertIn("residuals of neighbouring markers go together", text_of(page))
+        self.assertIn("too small here", text_of(page))
+        rows = table_with(page, "deviation by probes left out")[1:]
+        for row, deviation in zip(rows, palpate.array(model, "ProbewiseDeviation")):
+            self.assertEqual(row[5], f"{deviation:.2g}")
+            self.assertIn(f"+- {row[5]} by probes left out", printed)
+        model, page, printed = identified()
+        self.assertGreater(palpate.array(model, "NeighbourCorrelation").ravel()[1], 0.001)
+        for text in (text_of(page), printed):
+            self.assertNotIn("by probes left out", text)
+            self.assertIn("% of tables of noise", text)
 
     def test_of_a_known_ratio_says_what_was_looked_for_alone(self):
         surface, rig, _ = files()

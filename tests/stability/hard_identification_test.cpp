@@ -11,9 +11,11 @@
 #include <random>
 
 #include "identification/registration.h"
+#include "linear_algebra/sparse_factorization.h"
 #include "stability/hard_case.h"
 #include "support/refusals.h"
 #include "support/rigs.h"
+#include "support/solids.h"
 
 namespace palpate::test {
 namespace {
@@ -193,6 +195,53 @@ TEST(HardIdentification, TooLittle) {
   hard("one component of one displacement", "two unknowns from one number")
       .expectSaid(refusal([&] { body.identify(m); }),
                   "1 measured components without outliers for 2 unknowns");
+}
+
+/// A block whose farther half is another region, of cubes of tetrahedra.
+SolidProblem twoRegions(const Eigen::Vector3i& cubes, double near, double far) {
+  const TetrahedralMesh mesh = kuhnBox({0.08, 0.06, 0.04}, cubes).mesh();
+  std::vector<int> regions;
+  for (const auto& cell : mesh.tetrahedra().colwise())
+    regions.push_back(mesh.points()(Eigen::all, cell).row(0).mean() > 0.04);
+  const ElasticModel model = makeModel(
+      boundaryOf(mesh), [](const Eigen::Vector3d& x) { return x.z() < 1e-9; }, 1, 0.35);
+  return {model,
+          SolidBody(model.mesh(), mesh,
+                    {Elasticity(Material(near, 0.35)), Elasticity(Material(far, 0.35))}, regions)};
+}
+
+// Refining the mesh is the cure: what matters is that deviations are not taken for the error.
+TEST(HardIdentification, AMeshTooCoarseForTwoRegions) {
+  if (!SparseFactorization::isAvailable()) GTEST_SKIP() << "no MUMPS";
+  const HardCase here = hard("two regions on a block of 6x4x3 cubes, measured on 10x7x5",
+                             "deviations of noise alone where the mesh errs by five of them");
+  const SolidProblem truth = twoRegions({10, 7, 5}, 8e3, 3e4);
+  RigSettings rig;
+  rig.seed = 3;
+  rig.radius = 0.021;
+  const Measurements m = measuredOn(truth.greens(), truth.model.mesh(), rig);
+  const ElasticModel model = twoRegions({6, 4, 3}, 1, 1).model;
+  const RigSetup setup = setupOn(model, m);
+  IdentificationOptions options;
+  options.unknowns.regions = 2;
+  options.unknowns.poisson = false;
+  options.unknowns.poissonRatio = 0.35;
+  options.interpolationTolerance = 1e-3;
+  const auto responseOf = [&](const std::vector<Material>& materials, const Progress&) {
+    const auto greens =
+        twoRegions({6, 4, 3}, materials[0].youngsModulus(), materials[1].youngsModulus()).greens();
+    return MeasuredResponse(*greens, setup.setup, false);
+  };
+  const MaterialIdentification result =
+      MaterialIdentifier(responseOf, setup.setup, model.mesh().diagonal(), setup.normals, options)
+          .identify(m);
+  const IdentifiedParameter& modulus = result.parameters[0];
+  here.expectAtLeast("error of E in its standard deviations",
+                     std::abs(modulus.value - 8e3) / modulus.deviation, 5);
+  here.expectSaid(result.warnings.empty() ? "" : result.warnings.back(),
+                  "residuals of neighbouring markers go together");
+  here.expectAtLeast("deviation by probes left out over that of noise",
+                     modulus.probewiseDeviation / modulus.deviation, 1.5);
 }
 
 TEST(HardIdentification, FramesThatAreNotTold) {

@@ -36,9 +36,9 @@ class BentBar {
     return truth;
   }
 
-  MaterialIdentification identified(unsigned seed, int folds = 0) {
+  MaterialIdentification identified(unsigned seed, int folds = 0, int probes = 3) {
     RigSettings rig;
-    rig.probes = 3;
+    rig.probes = probes;
     rig.markers = 20;
     rig.seed = seed;
     rig.foundationLength = yields_ ? kYield : 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/lack_of_fit.h"
 #include "identification/material_identifier_parts.h"
 #include "identification/observability.h"
 #include "identification/robust_fit.h"
@@ -70,8 +71,13 @@ MaterialIdentification MaterialIdentifier::identify(const Measurements& measurem
   const auto displacements = [&](const Eigen::VectorXd& unknowns, Eigen::MatrixXd* jacobian) {
     return model.displacements(unknowns, forces, jacobian);
   };
-  RobustFit fit({model.lower(), model.upper(), Eigen::VectorXd::Zero(model.count()), displacements},
-                measurements, parts_->options.loss, progress);
+  DisplacementModel moved;
+  moved.lower = model.lower();
+  moved.upper = model.upper();
+  moved.precision.setZero(model.count());
+  moved.displacements = displacements;
+  moved.places = parts_->places;
+  RobustFit fit(std::move(moved), measurements, parts_->options.loss, progress);
   Eigen::VectorXd start = model.middle();
   start[0] = std::log(fit.modulusBy(displacements(start, nullptr)));
   fit.run(start);
@@ -96,6 +102,12 @@ MaterialIdentification MaterialIdentifier::identify(const Measurements& measurem
   warnOfParameters(result);
   fit.describe(result);
   warnOfInterpolation(measurements, result);
+  if (const Eigen::MatrixXd byProbes = fit.covarianceByProbes(); byProbes.size() > 0) {
+    const auto parameters = model.parameters(fit.unknowns(), byProbes);
+    for (int i = 0; i < model.count(); ++i)
+      result.parameters[i].probewiseDeviation = parameters[i].deviation;
+  }
+  warnOfLackOfFit(result);
   fit.crossValidate(parts_->options.folds, result);
   progress.report(1, "done");
   return result;

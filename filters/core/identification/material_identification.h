@@ -44,6 +44,9 @@ struct IdentifiedParameter {
   double deviation = 0;         ///< standard; at a bound as if that were not there
   double lower = 0, upper = 0;  ///< of the interval of 95 %, which ends at a bound at the latest
   bool isAtBound = false;
+  /// Standard, by what leaving out each probe in turn changes (the jackknife), and so of all that
+  /// differs between probes; -1 where there are too few.
+  double probewiseDeviation = -1;
 };
 
 /// How one probe fits: residuals are over the markers that are no outliers.
@@ -52,6 +55,12 @@ struct ProbeFit {
   int markers = 0, outliers = 0;  ///< markers are all of them
   double residual = 0;            ///< root mean square of a component, m
   double relative = 0;            ///< root of the sum of squares over that of the displacements
+};
+
+/// How residuals of neighbouring markers under one probe go together (neighbourCorrelation).
+struct NeighbourCorrelation {
+  double correlation = 0;  ///< about 0 for noise
+  double byChance = 1;     ///< how probable noise has them go together as much
 };
 
 struct MaterialIdentification {
@@ -67,6 +76,7 @@ struct MaterialIdentification {
   double misfit = -1;   ///< residuals over the deviations given, root mean square; -1: not given
   double fitError = 0;  ///< residuals over displacements that count, root mean squares
   double holdOutError = -1;  ///< of displacements under probes left out, relative; -1: no folds
+  NeighbourCorrelation neighbours;
   Eigen::Matrix3Xd heldOutResiduals;  ///< of probes left out, outliers' too; empty: no folds
   double interpolationError = 0;
   int samples = 0;  ///< Green's functions that were computed

@@ -23,7 +23,7 @@ MaterialIdentifier::MaterialIdentifier(const ResponseOf& responseOf, const Measu
   };
   ResponseInterpolation response(sample, lower, upper, setup, how, progress);
   parts_.reset(
-      new Parts{options, std::move(normals),
+      new Parts{options, std::move(normals), setup.places,
                 MaterialModel(options.unknowns, size, std::move(response), setup.probeOf)});
 }
 

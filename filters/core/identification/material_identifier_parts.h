@@ -14,6 +14,7 @@ namespace palpate {
 struct MaterialIdentifier::Parts {
   IdentificationOptions options;
   std::vector<Eigen::Vector3d> normals;
+  Eigen::Matrix3Xd places;
   MaterialModel model;
 };
 

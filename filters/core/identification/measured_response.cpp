@@ -34,11 +34,13 @@ MeasuredSetup measuredSetup(const SurfaceMesh& mesh, const Measurements& measure
                             const MeasuredPlaces& places, std::vector<SpreadForce> loads) {
   MeasuredSetup setup;
   setup.loads = std::move(loads);
+  setup.places.resize(3, places.markers.size());
   for (std::size_t i = 0; i < measurements.displacements.size(); ++i) {
     const SurfacePoint& point = places.markers[i];
     setup.probeOf.push_back(measurements.displacements[i].probe);
     setup.nodes.push_back(mesh.triangles().col(point.triangle));
     setup.weights.push_back(point.barycentric);
+    setup.places.col(i) = placeOf(mesh, point);
   }
   return setup;
 }

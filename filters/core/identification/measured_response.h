@@ -18,6 +18,7 @@ struct MeasuredSetup {
   std::vector<int> probeOf;              ///< #markers
   std::vector<Eigen::Vector3i> nodes;    ///< #markers: corners of the triangle
   std::vector<Eigen::Vector3d> weights;  ///< #markers: barycentric
+  Eigen::Matrix3Xd places;               ///< #markers: at rest, on the surface, m
 
   int probeCount() const { return static_cast<int>(loads.size()); }
   int markerCount() const { return static_cast<int>(probeOf.size()); }

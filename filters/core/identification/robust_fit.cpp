@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "identification/lack_of_fit.h"
 #include "sentence.h"
 
 namespace palpate {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kRobustScale = 2.5;  // norm of a displacement's residuals, standard deviations
 constexpr double kLargestMisfit = 3;  // standard deviations of chi squared
+constexpr int kLeastProbes = 4;       // to leave one out of
 constexpr int kScalings = 5, kTrimmings = 10;
 constexpr double kSettled = 0.02;  // relative change of the scale
 
@@ -173,6 +175,8 @@ void RobustFit::describe(MaterialIdentification& result) const {
   table_.describe(residuals_, outliers_, result);
   const Eigen::VectorXd weights = inlierWeights();
   const double freedom = freedomOf(weights);
+  result.neighbours =
+      neighbourCorrelation({table_.table(), model_.places}, weights.cwiseProduct(residuals_));
   result.noise =
       std::sqrt((weights.array() > 0).select(residuals_.array().square(), 0).sum() / freedom);
   if (table_.table().hasDeviations())
@@ -207,6 +211,29 @@ Eigen::VectorXd RobustFit::linearResidualsWithout(const Eigen::VectorXd& kept,
       factors.solve(jacobian.transpose() * squares.cwiseProduct(residuals_) -
                     model_.precision.cwiseProduct(unknowns_));
   return residuals_ - jacobian * step;
+}
+
+Eigen::MatrixXd RobustFit::covarianceByProbes() const {
+  const int probes = static_cast<int>(table_.table().probes.size());
+  if (probes < kLeastProbes) return {};
+  Eigen::MatrixXd jacobian;
+  model_.displacements(unknowns_, &jacobian);
+  const Eigen::VectorXd squares = weights().array().square();
+  const auto normalOf = [&](const Eigen::VectorXd& kept) -> Eigen::MatrixXd {
+    return jacobian.transpose() * kept.asDiagonal() * jacobian;
+  };
+  Eigen::MatrixXd all = normalOf(squares);
+  all.diagonal() += model_.precision;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(model_.count(), model_.count());
+  for (int probe = 0; probe < probes; ++probe) {
+    const Eigen::VectorXd own = squares - table_.withoutFold(squares, probe, probes);
+    const Eigen::LDLT<Eigen::MatrixXd> others(all - normalOf(own));
+    if (others.info() != Eigen::Success || !others.isPositive()) return {};
+    const Eigen::VectorXd change =
+        others.solve(jacobian.transpose() * own.cwiseProduct(residuals_));
+    covariance += change * change.transpose() * (probes - 1.0) / probes;
+  }
+  return covariance;
 }
 
 double RobustFit::leftByMultipleOf(const Eigen::VectorXd& displacements) const {

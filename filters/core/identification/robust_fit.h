@@ -28,6 +28,7 @@ struct DisplacementModel {
   double tolerance = 1e-12;  ///< LeastSquaresProblem
   /// Whether evaluations are so dear that what is left out is judged by the derivatives at the end.
   bool isDear = false;
+  Eigen::Matrix3Xd places;  ///< #markers: at rest, m
 
   int count() const { return static_cast<int>(lower.size()); }
 };
@@ -63,6 +64,10 @@ class RobustFit {
   /// Sets residuals, outliers, probes, noise and misfit, with what is doubtful in these.
   /// @throws std::invalid_argument if displacements are explained no better than by no motion.
   void describe(MaterialIdentification& result) const;
+
+  /// Of the unknowns, by what leaving out each probe in turn changes (the jackknife; of one step
+  /// from the solution). Empty of less than four probes, or where one of them is needed.
+  Eigen::MatrixXd covarianceByProbes() const;
 
   /// What the best multiple of displacements leaves, without outliers: over those measured, root
   /// mean squares.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/lack_of_fit.h"
 #include "identification/profile_interval.h"
 #include "identification/robust_fit.h"
 #include "model/plausible_modulus.h"
@@ -130,8 +131,10 @@ class FieldModel {
   MovedSurface kept_;
 };
 
-DisplacementModel displacementModel(FieldModel& field, const StiffnessFieldOptions& options) {
+DisplacementModel displacementModel(FieldModel& field, const Eigen::Matrix3Xd& places,
+                                    const StiffnessFieldOptions& options) {
   DisplacementModel model;
+  model.places = places;
   model.lower.setConstant(field.count(), -INFINITY);
   model.upper.setConstant(field.count(), INFINITY);
   if (options.poisson) {
@@ -177,6 +180,10 @@ void describe(const RobustFit& fit, const FieldModel& field, const StiffnessFiel
   told.parameters.push_back({"mean Young's modulus", "Pa", mean, mean * deviations[0],
                              mean / spread, mean * spread, false});
   told.correlations = Eigen::MatrixXd::Identity(field.firstMode(), field.firstMode());
+  const Eigen::MatrixXd byProbes = fit.covarianceByProbes();
+  if (byProbes.size() > 0)
+    told.parameters[0].probewiseDeviation =
+        mean * std::sqrt((turn * byProbes * turn.transpose())(0, 0));
   if (!isPlausibleModulus(mean))
     told.warnings.push_back(sentence("a Young's modulus of ", shortly(mean),
                                      " Pa is no material's: check the units of length and force"));
@@ -195,6 +202,8 @@ void describe(const RobustFit& fit, const FieldModel& field, const StiffnessFiel
     told.warnings.push_back(sentence("Poisson's ratio is at the bound ", shortly(poisson),
                                      " of what was looked in; its interval ends there"));
   const double size = deviations[0] * deviation;
+  if (byProbes.size() > 0)
+    told.parameters[1].probewiseDeviation = std::sqrt((turn * byProbes * turn.transpose())(1, 1));
   told.correlations(0, 1) = told.correlations(1, 0) = size > 0 ? reported(0, 1) / size : 0;
 }
 
@@ -224,7 +233,8 @@ StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::
   if (int(measurements.displacements.size()) != setup.markerCount())
     refuse("the measurements are not those of the setup");
   FieldModel field(moved, modes, setup, options, progress.part(0, 0.6));
-  RobustFit fit(displacementModel(field, options), measurements, options.loss, progress);
+  RobustFit fit(displacementModel(field, setup.places, options), measurements, options.loss,
+                progress);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(field.count());
   if (options.poisson) start[1] = (options.poissonLower + options.poissonUpper) / 2;
   start[0] = std::log(fit.modulusBy(field.displacements(start, nullptr)));
@@ -245,6 +255,7 @@ StiffnessField identifyStiffnessField(const MovedSurfaceOf& moved, const Eigen::
   result.expected = field.deviation();
   describe(fit, field, options, volumes, result);
   fit.describe(result.fit);
+  warnOfLackOfFit(result.fit);
   Eigen::VectorXd uniform = fit.unknowns();
   uniform.tail(modes.cols()).setZero();
   result.uniformError = fit.leftByMultipleOf(field.displacements(uniform, nullptr));

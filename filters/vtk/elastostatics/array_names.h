@@ -209,10 +209,16 @@ constexpr const char* MeasurementNoise = "MeasurementNoise";     // standard dev
 constexpr const char* MeasurementMisfit = "MeasurementMisfit"; // residuals over deviations given, or -1
 constexpr const char* HoldOutError = "HoldOutError"; // of probes left out, relative, or -1
 constexpr const char* FitError = "FitError"; // the same of what was fitted: residuals over displacements
+/// Of residuals of neighbouring markers under one probe: their correlation, and how probable noise has as much.
+constexpr const char* NeighbourCorrelation = "NeighbourCorrelation";
+/// Standard, of parameters, by what leaving out each probe changes; -1 for too few; a tuple a parameter.
+constexpr const char* ProbewiseDeviation = "ProbewiseDeviation";
 constexpr const char* ResponseInterpolationError = "ResponseInterpolationError"; // relative
 constexpr const char* RegistrationRotation = "RegistrationRotation"; // 9, row by row
 constexpr const char* RegistrationTranslation = "RegistrationTranslation"; // 3, m
 constexpr const char* RegistrationDeviation = "RegistrationDeviation"; // 6: about x, y, z (rad), along (m)
+/// Share of the parameters' standard deviations that the registration has; a tuple a parameter.
+constexpr const char* ParameterDeviationByRegistration = "ParameterDeviationByRegistration";
 constexpr const char* RegistrationDistance = "RegistrationDistance"; // places from the surface, m
 constexpr const char* PriorHoldOutError = "PriorHoldOutError"; // of vtkComplianceCorrection: its prior's
 constexpr const char* CorrectionSmoothing = "CorrectionSmoothing"; // noise over correction, variances
@@ -262,6 +268,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, FitError, TriedModels, TriedHoldOutErrors, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
+  NeighbourCorrelation, ProbewiseDeviation, ParameterDeviationByRegistration,
   RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, PriorHoldOutError, CorrectionSmoothing,
   NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of the surface that one was remeshed from.

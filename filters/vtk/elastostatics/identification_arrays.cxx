@@ -87,6 +87,14 @@ void setIdentification(
   setFieldNumber(surface, arrays::MeasurementMisfit, result.misfit);
   setFieldNumber(surface, arrays::HoldOutError, result.holdOutError);
   setFieldNumber(surface, arrays::FitError, result.fitError);
+  setFieldNumbers(surface, arrays::NeighbourCorrelation,
+    { result.neighbours.correlation, result.neighbours.byChance });
+  std::vector<double> probewise;
+  for (const IdentifiedParameter& p : result.parameters)
+  {
+    probewise.push_back(p.probewiseDeviation);
+  }
+  setColumn(surface, arrays::ProbewiseDeviation, probewise);
   setFieldNumber(surface, arrays::ResponseInterpolationError, result.interpolationError);
 }
 
