@@ -199,13 +199,15 @@ double component(vtkPolyData* model, const char* name, vtkIdType tuple, int c = 
 void printParameters(vtkPolyData* model) {
   const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames"),
                                  units = fieldStrings(model, "IdentifiedUnits");
+  const bool hasShare = model->GetFieldData()->GetArray("ParameterDeviationByRegistration");
   const auto value = [&](std::size_t i, int c) {
     return component(model, "IdentifiedParameters", static_cast<vtkIdType>(i), c);
   };
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string text = number(value(i, 0));
     if (value(i, 1) > 0)
-      text += " +- " + number(value(i, 1), 2) + " (95 % by noise: " + number(value(i, 2)) + " to " +
+      text += " +- " + number(value(i, 1), 2) + " (95 % by noise" +
+              (hasShare ? " and registration: " : ": ") + number(value(i, 2)) + " to " +
               number(value(i, 3)) + ")";
     const double byProbes = component(model, "ProbewiseDeviation", static_cast<vtkIdType>(i));
     if (lacksFit(model) && byProbes >= 0)
@@ -287,7 +289,7 @@ void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
     printRow("turn of the table's frame", registrationText(model).turn + " degrees about x, y, z");
     printRow("its shift", registrationText(model).shift + " m");
     printRow("places off the surface", number(fieldNumber(model, "RegistrationDistance", -1), 3) +
-                                           " m (rms); what it leaves open is not in the intervals");
+                                           " m (rms); " + registrationShareText(model));
   }
   printRow("noise", number(fieldNumber(model, "MeasurementNoise", -1), 3) + " m");
   if (const double misfit = fieldNumber(model, "MeasurementMisfit", -1); misfit >= 0)

@@ -83,8 +83,8 @@ std::string identified(vtkPolyData* model) {
   if (const double distance = fieldNumber(model, "RegistrationDistance", -1); distance >= 0)
     text += " After registration, by a turn of " + registrationText(model).turn +
             " degrees about x, y, z and a shift of " + registrationText(model).shift +
-            " m, places are " + number(distance, 3) +
-            " m (rms) off the surface; what that leaves open is not in the intervals.";
+            " m, places are " + number(distance, 3) + " m (rms) off the surface; " +
+            html::escaped(registrationShareText(model)) + ".";
   return text + "</p>\n";
 }
 

@@ -61,6 +61,19 @@ RegistrationText registrationText(vtkPolyData* model) {
               vectorIn(vector("RegistrationDeviation", 3), 2)};
 }
 
+std::string registrationShareText(vtkPolyData* model) {
+  if (!model->GetFieldData()->GetArray("ParameterDeviationByRegistration"))
+    return "what it leaves open is not in the intervals";
+  const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames"),
+                                 units = fieldStrings(model, "IdentifiedUnits");
+  std::string text = "what it leaves open is in the intervals:";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i > 0 ? ", " : " ") + names[i] + " +- " +
+            number(fieldComponentAt(model, "ParameterDeviationByRegistration", i), 2) +
+            (units[i].empty() ? "" : " ") + units[i];
+  return text;
+}
+
 std::string neighboursText(vtkPolyData* model) {
   const auto value = [&](int c) { return fieldComponentAt(model, "NeighbourCorrelation", 0, c); };
   return "correlation " + number(value(0), 2) + ", as much in " + percent(value(1)) +

@@ -26,6 +26,9 @@ struct RegistrationText {
 };
 RegistrationText registrationText(vtkPolyData* model);
 
+/// What the registration has of the deviations.
+std::string registrationShareText(vtkPolyData* model);
+
 /// How residuals of neighbouring markers under one probe go together.
 std::string neighboursText(vtkPolyData* model);
 /// Whether more than noise does, so that deviations are too small.

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "identification/registration.h"
+#include "identification/registration_changes.h"
 #include "identification/robust_statistics.h"
 #include "support/data_models.h"
 #include "support/refusals.h"
@@ -176,6 +177,55 @@ TEST(Registration, DeviationsGoWithTheNoiseOfPlaces) {
     EXPECT_GT(found.translationDeviation[c], 1e-5 * size);
     EXPECT_LE(std::abs(moved[c]), 5 * found.translationDeviation[c]);
   }
+}
+
+TEST(Registration, AFurtherMotionTurnsAboutTheCentreOfThePlaces) {
+  Registration known;
+  known.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  known.translation = {0.1, 0.2, 0.3};
+  known.centre = {1, 0, 2};
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << 0, 0, M_PI / 2, 0.5, 0, 0;
+  const Registration further = moved(known, motion);
+  const Eigen::Vector3d sensor = known.rotation.transpose() * (known.centre - known.translation),
+                        aside = known.rotation.transpose() *
+                                (known.centre + Eigen::Vector3d::UnitX() - known.translation);
+  EXPECT_LE((further.rotation * sensor + further.translation - Eigen::Vector3d(1.5, 0, 2)).norm(),
+            1e-14);
+  EXPECT_LE((further.rotation * aside + further.translation - Eigen::Vector3d(1.5, 1, 2)).norm(),
+            1e-14);
+}
+
+TEST(Registration, ChangesByWhatItLeavesOpenAreOfItsDeviations) {
+  Measurements m;
+  m.probes.resize(2);
+  for (int i = 0; i < 6; ++i) {
+    MeasuredDisplacement u;
+    u.probe = i / 3;
+    u.marker.point = Eigen::Vector3d(i % 3, 1, 0);  // seen under both probes
+    m.displacements.push_back(u);
+  }
+  Registration known;
+  known.placeDeviation = 0.02;
+  known.spread.diagonal().setConstant(0.01);
+  const Eigen::MatrixXd changes = changesByRegistration(m, known, [](const Measurements& here) {
+    Eigen::VectorXd residuals(18);
+    for (int i = 0; i < 6; ++i) {
+      const MeasuredDisplacement& u = here.displacements[i];
+      residuals.segment<3>(3 * i) = 5 * u.marker.point + 7 * here.probes[u.probe].contact.point;
+    }
+    return residuals;
+  });
+  ASSERT_EQ(changes.cols(), 6 + 3 * 2 + 3 * 3);
+  EXPECT_NEAR(changes(3, 3), 12 * 0.01, 1e-12);  // all along x
+  EXPECT_NEAR(changes(1, 2), 0, 1e-6);           // a turn about z of (0, 1, 0)
+  EXPECT_NEAR(changes(0, 2), -5 * 0.01, 1e-6);
+  EXPECT_NEAR(changes(0, 6), 7 * 0.02, 1e-12);         // the first contact along x
+  EXPECT_NEAR(changes(9, 6), 0, 1e-12);                // not under the other probe
+  const Eigen::VectorXd marker = changes.col(12 + 1);  // the second along x
+  EXPECT_NEAR(marker[3], 5 * 0.02, 1e-12);
+  EXPECT_NEAR(marker[12], 5 * 0.02, 1e-12);
+  EXPECT_NEAR(marker.cwiseAbs().sum(), 2 * 5 * 0.02, 1e-12);
 }
 
 /// Turns off the truth over their deviations: their own deviation, 1 where these hold, by the

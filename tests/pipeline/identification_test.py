@@ -312,6 +312,24 @@ class Program(Folder):
         self.assertAlmostEqual(np.linalg.norm([float(x) for x in turn.split(",")]), 29**0.5, delta=0.01)
         _, deviation = re.search(r"its shift +" + vectors + " m", done.stdout).groups()
         self.assertLess(max(float(x) for x in deviation.split(",")), 1e-6)
+        model = palpate.read(self.folder / "model.vtp")
+        share = palpate.array(model, "ParameterDeviationByRegistration")
+        self.assertLess(share[0], 1e-4 * palpate.array(model, "IdentifiedParameters")[0, 1])
+        self.assertIn(f"what it leaves open is in the intervals: Young's modulus +- {share[0]:.2g} Pa", done.stdout)
+        self.assertIn("95 % by noise and registration: ", done.stdout)
+
+    def test_what_a_registration_leaves_open_widens_intervals(self):
+        kidney = palpate.refine(palpate.read(palpate.example("kidney")), levels=1)
+        body = palpate.precompute(kidney, young=YOUNG, poisson=POISSON, estimate_error=False)
+        table = palpate.simulate_measurements(body, markers=80, place_noise=5e-4, rotation=(2, -3, 4))
+        model = palpate.identify(kidney, table, register=True, folds=0, estimate_error=False)
+        for (value, deviation, low, high), share, truth in zip(
+                palpate.array(model, "IdentifiedParameters"),
+                palpate.array(model, "ParameterDeviationByRegistration"), (YOUNG, POISSON)):
+            self.assertGreater(share, 0.3 * deviation)
+            self.assertLess(share, deviation)
+            self.assertLess(abs(value - truth), 3.5 * deviation)
+            self.assertGreater(high - low, 3.5 * share)
 
     def test_names_outliers_by_line(self):
         surface, data = self.made()

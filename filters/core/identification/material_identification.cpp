@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Cholesky>
 
 #include "identification/lack_of_fit.h"
 #include "identification/material_identifier_parts.h"
@@ -60,53 +61,96 @@ void warnOfInterpolation(const Measurements& measurements, MaterialIdentificatio
                                        " only, which is not small beside the noise"));
 }
 
+/// The unknowns, and behind them how far what else is uncertain is from where it was taken to be,
+/// in standard deviations.
+DisplacementModel displacementModel(const MaterialModel& model, const Eigen::Matrix3Xd& forces,
+                                    const Eigen::Matrix3Xd& places,
+                                    const Eigen::MatrixXd& changes) {
+  const Eigen::Index count = model.count(), others = changes.cols();
+  DisplacementModel moved;
+  moved.lower.setConstant(count + others, -INFINITY);
+  moved.upper.setConstant(count + others, INFINITY);
+  moved.lower.head(count) = model.lower();
+  moved.upper.head(count) = model.upper();
+  moved.precision.setOnes(count + others);
+  moved.precision.head(count).setZero();
+  moved.places = places;
+  moved.displacements = [&model, forces, changes, count, others](const Eigen::VectorXd& unknowns,
+                                                                 Eigen::MatrixXd* jacobian) {
+    Eigen::VectorXd result = model.displacements(unknowns.head(count), forces, jacobian);
+    if (others == 0) return result;
+    result -= changes * unknowns.tail(others);
+    if (!jacobian) return result;
+    jacobian->conservativeResize(Eigen::NoChange, count + others);
+    jacobian->rightCols(others) = -changes;
+    return result;
+  };
+  return moved;
+}
+
+/// With what the registration has of deviations: what is left of a covariance without the others.
+void setParameters(const MaterialModel& model, const RobustFit& fit,
+                   MaterialIdentification& result) {
+  const Eigen::Index count = model.count(), all = fit.unknowns().size();
+  const Eigen::VectorXd unknowns = fit.unknowns().head(count);
+  const Eigen::MatrixXd& covariance = fit.solution().covariance;
+  result.materials = model.materials(unknowns);
+  result.foundationLength = model.foundationLength(unknowns);
+  result.parameters = model.parameters(unknowns, covariance.topLeftCorner(count, count));
+  for (int i = 0; i < count; ++i) {
+    Eigen::VectorXd combination = Eigen::VectorXd::Zero(all);
+    combination.head(count) = model.combinationOf(i);
+    model.setInterval(i, fit.intervalOf(combination), result.parameters[i]);
+  }
+  result.correlations = correlationsOf(model, covariance.topLeftCorner(count, count));
+  if (const Eigen::MatrixXd byProbes = fit.covarianceByProbes(); byProbes.size() > 0) {
+    const auto parameters = model.parameters(unknowns, byProbes.topLeftCorner(count, count));
+    for (int i = 0; i < count; ++i)
+      result.parameters[i].probewiseDeviation = parameters[i].deviation;
+  }
+  if (all == count) return;
+  const auto held = covariance.rightCols(all - count);
+  const Eigen::MatrixXd share = held * held.bottomRows(all - count).ldlt().solve(held.transpose());
+  const auto parameters = model.parameters(unknowns, share.topLeftCorner(count, count));
+  for (int i = 0; i < count; ++i)
+    result.parameters[i].registrationDeviation = parameters[i].deviation;
+}
+
 }  // namespace
 
 MaterialIdentification MaterialIdentifier::identify(const Measurements& measurements,
-                                                    const Progress& progress) const {
+                                                    const Progress& progress,
+                                                    const Eigen::MatrixXd& changes) const {
   const MaterialModel& model = parts_->model;
   if (measurements.displacements.size() != model.probeOf().size())
     refuse("the measurements are not those that the responses were computed for");
   const Eigen::Matrix3Xd forces = forcesOf(measurements);
-  const auto displacements = [&](const Eigen::VectorXd& unknowns, Eigen::MatrixXd* jacobian) {
-    return model.displacements(unknowns, forces, jacobian);
-  };
-  DisplacementModel moved;
-  moved.lower = model.lower();
-  moved.upper = model.upper();
-  moved.precision.setZero(model.count());
-  moved.displacements = displacements;
-  moved.places = parts_->places;
-  RobustFit fit(std::move(moved), measurements, parts_->options.loss, progress);
-  Eigen::VectorXd start = model.middle();
-  start[0] = std::log(fit.modulusBy(displacements(start, nullptr)));
+  RobustFit fit(displacementModel(model, forces, parts_->places, changes), measurements,
+                parts_->options.loss, progress);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(model.count() + changes.cols());
+  start.head(model.count()) = model.middle();
+  start[0] = std::log(fit.modulusBy(model.displacements(model.middle(), forces, nullptr)));
   fit.run(start);
 
-  const Eigen::VectorXd weights = fit.weights();
+  const Eigen::VectorXd weights = fit.weights(), unknowns = fit.unknowns().head(model.count());
   const LeastSquaresSolution& solution = fit.solution();
-  const FittedMaterial fitted{model, measurements, parts_->normals, fit.unknowns(), weights};
-  const Observability seen = observability(fitted, solution.covariance, solution.weakest);
+  const FittedMaterial fitted{model, measurements, parts_->normals, unknowns, weights};
+  const bool isKnown = solution.covariance.size() > 0;
+  const Observability seen = observability(
+      fitted,
+      isKnown ? solution.covariance.topLeftCorner(model.count(), model.count()).eval()
+              : Eigen::MatrixXd(),
+      solution.weakest.head(std::min<Eigen::Index>(model.count(), solution.weakest.size())));
   if (!seen.unseen.empty()) refuse(seen.unseen.front());
-  if (solution.covariance.size() == 0)
-    refuse("the data do not determine the unknowns: hold some at what is known");
+  if (!isKnown) refuse("the data do not determine the unknowns: hold some at what is known");
   MaterialIdentification result;
-  result.materials = model.materials(fit.unknowns());
-  result.foundationLength = model.foundationLength(fit.unknowns());
-  result.parameters = model.parameters(fit.unknowns(), solution.covariance);
-  for (int i = 0; i < model.count(); ++i)
-    model.setInterval(i, fit.intervalOf(model.combinationOf(i)), result.parameters[i]);
-  result.correlations = correlationsOf(model, solution.covariance);
+  setParameters(model, fit, result);
   result.interpolationError = model.response().error();
   result.samples = model.response().sampleCount();
   result.warnings = seen.weak;
   warnOfParameters(result);
   fit.describe(result);
   warnOfInterpolation(measurements, result);
-  if (const Eigen::MatrixXd byProbes = fit.covarianceByProbes(); byProbes.size() > 0) {
-    const auto parameters = model.parameters(fit.unknowns(), byProbes);
-    for (int i = 0; i < model.count(); ++i)
-      result.parameters[i].probewiseDeviation = parameters[i].deviation;
-  }
   warnOfLackOfFit(result);
   fit.crossValidate(parts_->options.folds, result);
   progress.report(1, "done");

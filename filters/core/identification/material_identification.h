@@ -47,6 +47,7 @@ struct IdentifiedParameter {
   /// Standard, by what leaving out each probe in turn changes (the jackknife), and so of all that
   /// differs between probes; -1 where there are too few.
   double probewiseDeviation = -1;
+  double registrationDeviation = 0;  ///< the part of its deviation that the registration has
 };
 
 /// How one probe fits: residuals are over the markers that are no outliers.
@@ -118,11 +119,14 @@ class MaterialIdentifier {
                              const Eigen::MatrixXd& information) const;
 
   /// @param measurements  of the setup's probes and markers.
+  /// @param changes       of residuals by what else is uncertain, one standard deviation a column,
+  ///                      as changesByRegistration; they are fitted, too, within these deviations,
+  ///                      and the material's have their part. 3 #markers by any; may be empty.
   /// @throws std::invalid_argument with what the data cannot see and what would help, if they do
   ///         not determine the unknowns, are fewer than these or contradict every material;
   ///         std::runtime_error if it does not converge; Aborted.
-  MaterialIdentification identify(const Measurements& measurements,
-                                  const Progress& progress = {}) const;
+  MaterialIdentification identify(const Measurements& measurements, const Progress& progress = {},
+                                  const Eigen::MatrixXd& changes = {}) const;
 
   const ResponseInterpolation& response() const;
 

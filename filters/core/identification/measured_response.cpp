@@ -114,6 +114,16 @@ Eigen::MatrixXd MeasuredResponse::readOut(const Eigen::MatrixXd& support) const 
   return rows;
 }
 
+Eigen::VectorXd MeasuredResponse::residuals(const Measurements& measurements, double length) const {
+  const Eigen::MatrixXd rows = onFoundation(length, nullptr);
+  Eigen::VectorXd residuals(rows.rows());
+  for (std::size_t i = 0; i < probeOf_.size(); ++i)
+    residuals.segment<3>(3 * i) =
+        measurements.displacements[i].displacement -
+        rows.middleRows<3>(3 * i) * measurements.probes[probeOf_[i]].force;
+  return residuals;
+}
+
 Eigen::MatrixXd MeasuredResponse::onFoundation(double length, Eigen::MatrixXd* derivative) const {
   if (derivative) derivative->setZero(rows_.rows(), 3);
   if (stiffness_.size() == 0) return rows_;

@@ -47,6 +47,11 @@ class MeasuredResponse {
   /// @throws std::invalid_argument for a column that is missing.
   MeasuredResponse(const GreensFunctions& greens, const MeasuredSetup& setup, bool yieldingSupport);
 
+  /// What is measured less what is predicted, 3 #markers, m.
+  /// @param measurements  of the setup.
+  /// @param length        of the foundation.
+  Eigen::VectorXd residuals(const Measurements& measurements, double length) const;
+
   /// On a firm support.
   const Eigen::MatrixXd& rows() const { return rows_; }
 

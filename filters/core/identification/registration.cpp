@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <memory>
 #include <set>
@@ -87,6 +87,23 @@ class Alignment {
 
   Eigen::Vector3d translation(const Eigen::VectorXd& motion) const {
     return middle_ + motion.tail<3>() - rotation(motion) * centre_;
+  }
+
+  Eigen::Vector3d centre(const Eigen::VectorXd& motion) const { return middle_ + motion.tail<3>(); }
+
+  /// Of distances by further turns about the centre, times the places' extent, and by shifts; a row
+  /// a place.
+  Eigen::MatrixXd distancesByMotion(const Eigen::VectorXd& motion) const {
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd all;
+    evaluate(motion, 1, residuals, &all);
+    Eigen::MatrixXd rows(offsets_.cols(), 6);
+    for (Eigen::Index i = 0; i < offsets_.cols(); ++i) {
+      const Eigen::Vector3d arm = rotation(motion) * offsets_.col(i),
+                            normal = all.block<1, 3>(3 * i, 3).transpose();
+      rows.row(i) << (arm.cross(normal) / extent_).transpose(), normal.transpose();
+    }
+    return rows;
   }
 
   /// How far motions take the places off the surface, were it smooth: of facets alone, the sides
@@ -199,16 +216,21 @@ Fit fitFrom(const Eigen::VectorXd& start, const Alignment& alignment, const Surf
   throw;
 }
 
-/// Of turns times the places' extent, and of shifts, by how far the places are off.
-Eigen::VectorXd deviationsOf(const Fit& fit, const Alignment& alignment, const SurfaceMesh& mesh) {
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd rows;
-  alignment.evaluate(fit.motion, 1, residuals, &rows);
-  const double scale = medianScale(fit.residuals, 1e-9 * mesh.diagonal()), count = rows.rows() / 3;
-  // Of as many places as there are numbers of a motion none would be off.
-  const double taken = count / std::max(1.0, count - 6);
-  return scale * std::sqrt(taken) *
-         (rows.transpose() * rows).inverse().diagonal().cwiseMax(0).cwiseSqrt();
+/// By how far places are off. Of as many as there are numbers of a motion none would be.
+double deviationOf(const Fit& fit, const SurfaceMesh& mesh) {
+  const double count = fit.residuals.size() / 3;
+  return medianScale(fit.residuals, 1e-9 * mesh.diagonal()) *
+         std::sqrt(count / std::max(1.0, count - 6));
+}
+
+/// Registration::spread, of places of this deviation.
+Eigen::MatrixXd spreadOf(const Fit& fit, const Alignment& alignment, double deviation) {
+  const Eigen::MatrixXd rows = alignment.distancesByMotion(fit.motion);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(rows.transpose() * rows);
+  Eigen::MatrixXd spread = deviation * parts.eigenvectors() *
+                           parts.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  spread.topRows(3) /= alignment.extent();
+  return spread;
 }
 
 }  // namespace
@@ -230,8 +252,11 @@ Registration registerToSurface(const SurfaceMesh& mesh, const Measurements& meas
   Registration result;
   result.rotation = alignment.rotation(best.motion);
   result.translation = alignment.translation(best.motion);
-  const Eigen::VectorXd deviations = deviationsOf(best, alignment, mesh);
-  result.rotationDeviation = deviations.head<3>() / alignment.extent();
+  result.placeDeviation = deviationOf(best, mesh);
+  result.centre = alignment.centre(best.motion);
+  result.spread = spreadOf(best, alignment, result.placeDeviation);
+  const Eigen::VectorXd deviations = result.spread.rowwise().norm();
+  result.rotationDeviation = deviations.head<3>();
   result.translationDeviation = deviations.tail<3>();
   result.distance = best.residuals.norm() / std::sqrt(double(places.cols()));
   return result;

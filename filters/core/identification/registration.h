@@ -16,7 +16,12 @@ struct Registration {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotationDeviation = Eigen::Vector3d::Zero();     ///< rad, about x, y, z
   Eigen::Vector3d translationDeviation = Eigen::Vector3d::Zero();  ///< m, of the places' centre
-  double distance = 0;  ///< root mean square of the places from the surface, m
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the places, on the surface, m
+  /// What the places leave open: a column a motion of one standard deviation, which vary
+  /// independently; its turn about the centre, rad, on its shift, m.
+  Eigen::Matrix<double, 6, 6> spread = Eigen::Matrix<double, 6, 6>::Zero();
+  double placeDeviation = 0;  ///< standard, of places along an axis, by how far they are off, m
+  double distance = 0;        ///< root mean square of the places from the surface, m
 };
 
 /// Finds the rigid motion that brings places of markers and contacts onto a surface: robust least

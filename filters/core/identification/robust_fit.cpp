@@ -138,7 +138,7 @@ void RobustFit::run(const Eigen::VectorXd& start) {
     }
     requireEnough();
   }
-  if (isScaleFelt) return;
+  if (isScaleFelt && model_.isDear) return;
   solution_ = solve(unknowns_, inlierWeights() / scale_, RobustLoss::None);
   unknowns_ = solution_.parameters;
   residuals_ = residualsAt(unknowns_);

@@ -114,6 +114,16 @@ void setNextProbes(
   setTuples(surface, arrays::NextProbeDeviations, deviations);
 }
 
+void setRegistrationDeviations(vtkPolyData* surface, const MaterialIdentification& result)
+{
+  std::vector<double> shares;
+  for (const IdentifiedParameter& p : result.parameters)
+  {
+    shares.push_back(p.registrationDeviation);
+  }
+  setColumn(surface, arrays::ParameterDeviationByRegistration, shares);
+}
+
 void setRegistration(vtkPolyData* surface, const Registration& registration)
 {
   std::vector<double> rotation, deviations;

@@ -23,6 +23,8 @@ void setIdentification(
 /// @param deviations  a row a probe: of all parameters with the probes up to it.
 void setNextProbes(
   vtkPolyData* surface, const std::vector<Probe>& probes, const Eigen::MatrixXd& deviations);
+/// Adds what the registration has of the parameters' deviations.
+void setRegistrationDeviations(vtkPolyData* surface, const MaterialIdentification& result);
 void setRegistration(vtkPolyData* surface, const Registration& registration);
 } // namespace palpate::convert
 

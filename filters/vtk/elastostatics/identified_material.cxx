@@ -6,9 +6,13 @@
 #include "array_names.h"
 #include "conversion.h"
 #include "sentence.h"
+#include "volume_arrays.h"
 
+#include "vtkCellData.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpate::convert
@@ -32,6 +36,36 @@ vtkSmartPointer<vtkPolyData> withAnyMaterial(vtkPolyData* surface)
   setFieldNumber(copy, arrays::YoungsModulus, 1);
   setFieldNumber(copy, arrays::PoissonRatio, 0.3);
   return copy;
+}
+
+std::vector<int> regionsOf(vtkUnstructuredGrid* grid, int& count)
+{
+  count = 1;
+  vtkDataArray* array = grid ? grid->GetCellData()->GetArray(arrays::MaterialRegion) : nullptr;
+  std::vector<int> regions;
+  for (vtkIdType cell = 0; array && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = grid->GetCellType(cell);
+    if (type != VTK_TETRA && type != VTK_QUADRATIC_TETRA)
+    {
+      continue; // of lower dimension
+    }
+    regions.push_back(vertexNumber(
+      array->GetComponent(cell, 0), grid->GetNumberOfCells(), "MaterialRegion of cell ", cell));
+  }
+  if (regions.empty())
+  {
+    return regions;
+  }
+  count = *std::max_element(regions.begin(), regions.end()) + 1;
+  for (int region = 0; region < count; ++region)
+  {
+    if (std::find(regions.begin(), regions.end(), region) == regions.end())
+    {
+      refuse("no cell is of the MaterialRegion ", region, ", but some are of ", count - 1);
+    }
+  }
+  return regions;
 }
 
 std::string unitDoubt(vtkPolyData* surface, double youngsModulus)

@@ -10,6 +10,7 @@
 #include "filled_surface.h"
 #include "identified_material.h"
 #include "identification/next_probes.h"
+#include "identification/registration_changes.h"
 #include "identification_arrays.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
@@ -17,7 +18,6 @@
 #include "sentence.h"
 #include "volume_arrays.h"
 
-#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -36,38 +36,6 @@ namespace
 {
 constexpr double SplitFrom = palpate::Elasticity::kSplitFrom;
 constexpr int CandidatePlaces = 16;
-
-/// Regions of the tetrahedra of a grid, in their order; empty where it has none.
-std::vector<int> regionsOf(vtkUnstructuredGrid* grid, int& count)
-{
-  count = 1;
-  vtkDataArray* array =
-    grid ? grid->GetCellData()->GetArray(palpate::arrays::MaterialRegion) : nullptr;
-  std::vector<int> regions;
-  for (vtkIdType cell = 0; array && cell < grid->GetNumberOfCells(); ++cell)
-  {
-    const int type = grid->GetCellType(cell);
-    if (type != VTK_TETRA && type != VTK_QUADRATIC_TETRA)
-    {
-      continue; // of lower dimension
-    }
-    regions.push_back(palpate::convert::vertexNumber(
-      array->GetComponent(cell, 0), grid->GetNumberOfCells(), "MaterialRegion of cell ", cell));
-  }
-  if (regions.empty())
-  {
-    return regions;
-  }
-  count = *std::max_element(regions.begin(), regions.end()) + 1;
-  for (int region = 0; region < count; ++region)
-  {
-    if (std::find(regions.begin(), regions.end(), region) == regions.end())
-    {
-      palpate::refuse("no cell is of the MaterialRegion ", region, ", but some are of ", count - 1);
-    }
-  }
-  return regions;
-}
 } // namespace
 
 /// The body and how its Green's functions are computed for a material.
@@ -85,6 +53,22 @@ struct vtkGreensFunctionIdentification::Body
   palpate::ElasticModel ModelOf(const palpate::Material& material) const
   {
     return { this->Given.sharedMesh(), material, this->Given.conditions(), this->Given.smoothPatches() };
+  }
+
+  /// What residuals change by what the registration leaves open.
+  Eigen::MatrixXd Changes(const palpate::Measurements& measurements,
+    const palpate::Registration& registration, const palpate::MaterialIdentification& found,
+    const palpate::Progress& progress) const
+  {
+    const auto greens = this->Compute(found.materials, false, progress).take();
+    return palpate::changesByRegistration(measurements, registration,
+      [&](const palpate::Measurements& moved)
+      {
+        const palpate::convert::ProbedSurface probed = palpate::convert::probedSurface(
+          this->Given, moved, this->Filter.PlaceTolerance * this->Given.mesh().diagonal());
+        return palpate::MeasuredResponse(*greens, probed.setup, this->Filter.YieldingSupport)
+          .residuals(moved, found.foundationLength);
+      });
   }
 
   palpate::ComputedGreensFunctions Compute(const std::vector<palpate::Material>& materials,
@@ -198,7 +182,7 @@ vtkGreensFunctionIdentification::Body vtkGreensFunctionIdentification::BodyOf(
   if (grid)
   {
     body.Mesh = convert::tetrahedraOf(grid);
-    body.RegionOfCell = regionsOf(grid, body.Regions);
+    body.RegionOfCell = convert::regionsOf(grid, body.Regions);
   }
   else if (isSolid)
   {
@@ -346,8 +330,13 @@ void vtkGreensFunctionIdentification::Compute(
     this->MeasurementsOn(mesh, vtkPolyData::GetData(inputs[2]), registration);
   const palpate::MaterialIdentifier identifier =
     this->IdentifierFor(body, measurements, progress.part(0.05, 0.6));
-  const palpate::MaterialIdentification result =
-    identifier.identify(measurements, progress.part(0.6, 0.65));
+  palpate::MaterialIdentification result = identifier.identify(measurements, progress.part(0.6, 0.61));
+  if (registration)
+  {
+    const Eigen::MatrixXd changes =
+      body.Changes(measurements, *registration, result, progress.part(0.61, 0.64));
+    result = identifier.identify(measurements, progress.part(0.64, 0.65), changes);
+  }
 
   palpate::ComputedGreensFunctions greens =
     body.Compute(result.materials, this->EstimateError, progress.part(0.65, 0.8));
@@ -372,6 +361,7 @@ void vtkGreensFunctionIdentification::Compute(
   if (registration)
   {
     convert::setRegistration(output, *registration);
+    convert::setRegistrationDeviations(output, result);
   }
   this->MarkPatches(body.Boundary ? body.Boundary.Get() : input, model, output);
 }
