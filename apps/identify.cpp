@@ -303,7 +303,9 @@ void printModel(vtkPolyData* model, const MeasurementOptions& measurements) {
   if (const double error = fieldNumber(model, "ResponseInterpolationError", 0); error > 0)
     printRow("error of interpolation", percent(error));
   printNextProbes(model);
-  if (const double error = fieldNumber(model, "ErrorEstimate", -1); error >= 0)
+  if (const std::string off = offByMeshText(model); !off.empty())
+    printRow("the mesh makes too large", off);
+  else if (const double error = fieldNumber(model, "ErrorEstimate", -1); error >= 0)
     printRow("error of the model itself",
              percent(error) + " (what the mesh may add to Young's modulus)");
 }

@@ -75,8 +75,10 @@ std::string identified(vtkPolyData* model) {
   if (lacksFit(model))
     text += " <b>and too small here</b>, as the model differs from the body by more (below)";
   const double error = fieldNumber(model, "ErrorEstimate", -1);
-  text += error >= 0 ? "; the mesh may add <b>" + percent(error) + "</b> to Young's modulus"
-                     : "; what the mesh adds was not estimated: compare with a finer one";
+  const std::string off = offByMeshText(model);
+  text += !off.empty() ? "; the mesh makes too large <b>" + html::escaped(off) + "</b>"
+          : error >= 0 ? "; the mesh may add <b>" + percent(error) + "</b> to Young's modulus"
+                       : "; what the mesh adds was not estimated: compare with a finer one";
   text += ".";
   if (const double length = fieldNumber(model, "SupportYieldLength", 0); length > 0)
     text += " The support yields like an elastic foundation of E / " + number(length) + " m.";

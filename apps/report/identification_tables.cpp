@@ -74,6 +74,18 @@ std::string registrationShareText(vtkPolyData* model) {
   return text;
 }
 
+std::string offByMeshText(vtkPolyData* model) {
+  if (!model->GetFieldData()->GetArray("ParametersOffByMesh")) return {};
+  const std::vector<std::string> names = fieldStrings(model, "IdentifiedNames"),
+                                 units = fieldStrings(model, "IdentifiedUnits");
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i > 0 ? ", " : "") + names[i] + " by " +
+            number(fieldComponentAt(model, "ParametersOffByMesh", i), 2) +
+            (units[i].empty() ? "" : " ") + units[i];
+  return text;
+}
+
 std::string neighboursText(vtkPolyData* model) {
   const auto value = [&](int c) { return fieldComponentAt(model, "NeighbourCorrelation", 0, c); };
   return "correlation " + number(value(0), 2) + ", as much in " + percent(value(1)) +

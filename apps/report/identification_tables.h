@@ -29,6 +29,9 @@ RegistrationText registrationText(vtkPolyData* model);
 /// What the registration has of the deviations.
 std::string registrationShareText(vtkPolyData* model);
 
+/// By how much the mesh makes parameters too large, where that was estimated; else nothing.
+std::string offByMeshText(vtkPolyData* model);
+
 /// How residuals of neighbouring markers under one probe go together.
 std::string neighboursText(vtkPolyData* model);
 /// Whether more than noise does, so that deviations are too small.

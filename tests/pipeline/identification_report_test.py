@@ -10,6 +10,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import palpate
 from palpate.arrays import as_vtk
@@ -202,6 +203,45 @@ class Identification(unittest.TestCase):
         self.assertIn("There was no cross-validation", text_of(page))
         self.assertFalse(any("correlation" in table[0] for table in tables_of(page)))
         self.assertEqual(palpate.array(model, "HoldOutError")[0], -1)
+
+
+class Regions(unittest.TestCase):
+    def test_tell_what_the_mesh_makes_of_each(self):
+        def block(divisions):
+            grid = bar(divisions)
+            points = points_of(grid)
+            cells = np.array([[grid.GetCell(c).GetPointId(k) for k in range(4)]
+                              for c in range(grid.GetNumberOfCells())])
+            grid.GetPointData().AddArray(as_vtk((points[:, 2] == 0).astype(np.uint8), "BoundaryType", 1, np.uint8))
+            return grid, points[cells].mean(axis=1)[:, 2] > 1
+
+        grid, above = block((6, 6, 12))
+        set_cells(grid, YoungsModulus=np.where(above, 3 * YOUNG, YOUNG), PoissonRatio=np.full(len(above), 0.3))
+        palpate.write(palpate.precompute(grid, young=YOUNG, poisson=0.3, method="fem", estimate_error=False),
+                      place("two.vtp"))
+        self.assertEqual(run("measure", place("two.vtp"), place("two.csv"), "--probes", 8, "--radius", 0.7,
+                             "--noise", 0.002).returncode, 0)
+        grid, above = block((3, 3, 6))
+        grid.GetCellData().AddArray(as_vtk(above.astype(np.int32), "MaterialRegion", 1, np.int32))
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(str(place("two.vtu")))
+        writer.SetInputData(grid)
+        writer.Write()
+        model, page, printed = made("two_found", "identify", place("two.vtu"),
+                                    ("--measurements", place("two.csv"), "--method", "fem", "--poisson", 0.3,
+                                     "--folds", 0))
+        found = palpate.array(model, "IdentifiedParameters")[:, 0]
+        off = palpate.array(model, "ParametersOffByMesh").ravel()
+        truth = np.array([YOUNG, 3 * YOUNG])
+        errors = found / truth - 1
+        self.assertGreater(np.abs(errors).max(), 0.05)
+        # The body of half as long edges that was measured is off itself: errors go with their power of 5/4.
+        left = errors - (1 - 2**-1.25) * off / truth
+        self.assertLess(np.abs(left).max(), 0.4 * np.abs(errors).max())
+        self.assertGreater(palpate.array(model, "ErrorEstimate")[0], 0)
+        said = (f"Young's modulus of region 0 by {off[0]:.2g} Pa, Young's modulus of region 1 by {off[1]:.2g} Pa")
+        for text in (text_of(page), printed):
+            self.assertIn(said, text)
 
 
 class Others(unittest.TestCase):

@@ -128,6 +128,13 @@ class MaterialIdentifier {
   MaterialIdentification identify(const Measurements& measurements, const Progress& progress = {},
                                   const Eigen::MatrixXd& changes = {}) const;
 
+  /// What predicted displacements that are off make of the parameters that were found, in their
+  /// units.
+  /// @param off  what the body itself would add to them, 3 #markers, m.
+  /// @return #parameters: by how much they are too large; empty where the data do not tell.
+  Eigen::VectorXd parametersOff(const MaterialIdentification& found,
+                                const Measurements& measurements, const Eigen::VectorXd& off) const;
+
   const ResponseInterpolation& response() const;
 
  private:

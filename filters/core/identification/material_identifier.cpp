@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "identification/material_identifier_parts.h"
+#include "identification/measured_values.h"
 #include "identification/observability.h"
 #include "sentence.h"
 
@@ -55,6 +56,26 @@ Eigen::VectorXd MaterialIdentifier::deviations(const Eigen::VectorXd& parameters
   Eigen::VectorXd deviations(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) deviations[i] = all[i].deviation;
   return deviations;
+}
+
+Eigen::VectorXd MaterialIdentifier::parametersOff(const MaterialIdentification& found,
+                                                  const Measurements& measurements,
+                                                  const Eigen::VectorXd& off) const {
+  const MaterialModel& model = parts_->model;
+  Eigen::VectorXd parameters(model.count());
+  for (int i = 0; i < model.count(); ++i) parameters[i] = found.parameters[i].value;
+  const Eigen::MatrixXd jacobian = sensitivities(parameters, measurements);
+  const Eigen::VectorXd squares =
+      MeasuredValues(measurements).weightsWithout(found.outliers).array().square();
+  const Eigen::LDLT<Eigen::MatrixXd> normal(jacobian.transpose() * squares.asDiagonal() * jacobian);
+  if (normal.info() != Eigen::Success || !normal.isPositive()) return {};
+  const Eigen::VectorXd change = normal.solve(jacobian.transpose() * squares.cwiseProduct(off));
+  Eigen::VectorXd result(model.count());
+  for (int i = 0; i < model.count(); ++i)
+    result[i] = model.combinationOf(i).dot(change) * (model.regionOf(i) >= 0 ? parameters[i]
+                                                      : i == model.support() ? model.size()
+                                                                             : 1);
+  return result;
 }
 
 const ResponseInterpolation& MaterialIdentifier::response() const {

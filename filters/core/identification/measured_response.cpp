@@ -57,6 +57,16 @@ Eigen::MatrixXd nodalForces(const MeasuredSetup& setup, const Measurements& meas
   return forces;
 }
 
+Eigen::VectorXd seenAtMarkers(const MeasuredSetup& setup, const Eigen::MatrixXd& displacements) {
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(3 * setup.markerCount());
+  for (int i = 0; i < setup.markerCount(); ++i)
+    for (int k = 0; k < 3; ++k)
+      seen.segment<3>(3 * i) +=
+          setup.weights[i][k] *
+          displacements.col(setup.probeOf[i]).segment<3>(3 * setup.nodes[i][k]);
+  return seen;
+}
+
 MeasuredResponse::MeasuredResponse(const GreensFunctions& greens, const MeasuredSetup& setup,
                                    bool yieldingSupport)
     : modulus_(greens.info().material.youngsModulus()), probeOf_(setup.probeOf) {

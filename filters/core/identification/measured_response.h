@@ -34,6 +34,10 @@ MeasuredSetup measuredSetup(const SurfaceMesh& mesh, const Measurements& measure
 Eigen::MatrixXd nodalForces(const MeasuredSetup& setup, const Measurements& measurements,
                             const Eigen::VectorXd& areas);
 
+/// What markers see of displacements of the surface under each probe, 3 #markers.
+/// @param displacements  3 #V by #probes, m.
+Eigen::VectorXd seenAtMarkers(const MeasuredSetup& setup, const Eigen::MatrixXd& displacements);
+
 /// What markers see of unit forces along x, y and z of their own probe: 3 #markers by 3, m/N. Where
 /// the support yields, fixed nodes are released onto an elastic foundation ([JP01] eq. 18-21 with
 /// all of them switched): with a stiffness k per area,

@@ -211,6 +211,8 @@ constexpr const char* HoldOutError = "HoldOutError"; // of probes left out, rela
 constexpr const char* FitError = "FitError"; // the same of what was fitted: residuals over displacements
 /// Of residuals of neighbouring markers under one probe: their correlation, and how probable noise has as much.
 constexpr const char* NeighbourCorrelation = "NeighbourCorrelation";
+/// By how much the mesh makes parameters too large, of several regions; a tuple a parameter.
+constexpr const char* ParametersOffByMesh = "ParametersOffByMesh";
 /// Standard, of parameters, by what leaving out each probe changes; -1 for too few; a tuple a parameter.
 constexpr const char* ProbewiseDeviation = "ProbewiseDeviation";
 constexpr const char* ResponseInterpolationError = "ResponseInterpolationError"; // relative
@@ -268,7 +270,7 @@ constexpr const char* GreensFunctionResults[] = { GreensFunctions, GreensFunctio
   ProbeOutliers, IdentifiedNames, IdentifiedUnits, IdentifiedParameters, IdentifiedCorrelations,
   YoungsModulusDeviation, PoissonRatioDeviation, SupportYieldLength, MeasurementNoise, MeasurementMisfit,
   HoldOutError, FitError, TriedModels, TriedHoldOutErrors, FieldDeviation, UniformFitError, ResponseInterpolationError, RegistrationRotation, RegistrationTranslation,
-  NeighbourCorrelation, ProbewiseDeviation, ParameterDeviationByRegistration,
+  NeighbourCorrelation, ProbewiseDeviation, ParametersOffByMesh, ParameterDeviationByRegistration,
   RegistrationDeviation, RegistrationDistance, DeterminedUnknowns, PriorHoldOutError, CorrectionSmoothing,
   NextProbeVertex, NextProbeForce, NextProbeDeviations };
 /// Field data of the surface that one was remeshed from.

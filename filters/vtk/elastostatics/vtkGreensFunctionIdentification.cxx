@@ -4,13 +4,11 @@
 #include "vtkGreensFunctionIdentification.h"
 
 #include "array_names.h"
-#include "bem/boundary_element_method.h"
 #include "conversion.h"
-#include "fem/finite_element_method.h"
 #include "filled_surface.h"
+#include "identified_body.h"
 #include "identified_material.h"
 #include "identification/next_probes.h"
-#include "identification/registration_changes.h"
 #include "identification_arrays.h"
 #include "measurement_arrays.h"
 #include "model_arrays.h"
@@ -37,67 +35,6 @@ namespace
 constexpr double SplitFrom = palpate::Elasticity::kSplitFrom;
 constexpr int CandidatePlaces = 16;
 } // namespace
-
-/// The body and how its Green's functions are computed for a material.
-struct vtkGreensFunctionIdentification::Body
-{
-  const vtkGreensFunctionIdentification& Filter;
-  palpate::ElasticModel Given;
-  vtkSmartPointer<vtkPolyData> Boundary; // in place of the surface, null where that stays
-  std::optional<palpate::TetrahedralMesh> Mesh;
-  std::vector<int> RegionOfCell;
-  int Regions = 1;
-  std::vector<int> Columns; // empty for all free nodes
-  std::string Warning;      // of the filling
-
-  palpate::ElasticModel ModelOf(const palpate::Material& material) const
-  {
-    return { this->Given.sharedMesh(), material, this->Given.conditions(), this->Given.smoothPatches() };
-  }
-
-  /// What residuals change by what the registration leaves open.
-  Eigen::MatrixXd Changes(const palpate::Measurements& measurements,
-    const palpate::Registration& registration, const palpate::MaterialIdentification& found,
-    const palpate::Progress& progress) const
-  {
-    const auto greens = this->Compute(found.materials, false, progress).take();
-    return palpate::changesByRegistration(measurements, registration,
-      [&](const palpate::Measurements& moved)
-      {
-        const palpate::convert::ProbedSurface probed = palpate::convert::probedSurface(
-          this->Given, moved, this->Filter.PlaceTolerance * this->Given.mesh().diagonal());
-        return palpate::MeasuredResponse(*greens, probed.setup, this->Filter.YieldingSupport)
-          .residuals(moved, found.foundationLength);
-      });
-  }
-
-  palpate::ComputedGreensFunctions Compute(const std::vector<palpate::Material>& materials,
-    bool estimate, const palpate::Progress& progress) const
-  {
-    const palpate::ElasticModel model = this->ModelOf(materials.front());
-    if (!this->Mesh)
-    {
-      palpate::BoundaryElementOptions options;
-      options.columns = this->Columns;
-      options.reciprocal = this->Filter.Reciprocal;
-      options.threads = this->Filter.NumberOfThreads;
-      options.estimateError = estimate;
-      return palpate::computeBoundaryElementGreensFunctions(model, options, progress.callback());
-    }
-    palpate::FiniteElementOptions options;
-    options.columns = this->Columns;
-    options.reciprocal = this->Filter.Reciprocal;
-    options.estimateError = estimate && this->Regions == 1;
-    std::vector<palpate::Elasticity> elasticities;
-    for (const palpate::Material& material : materials)
-    {
-      elasticities.emplace_back(material);
-    }
-    const palpate::SolidBody body(
-      model.mesh(), *this->Mesh, std::move(elasticities), this->RegionOfCell);
-    return palpate::computeFiniteElementGreensFunctions(model, body, options, progress.callback());
-  }
-};
 
 vtkGreensFunctionIdentification::vtkGreensFunctionIdentification()
 {
@@ -362,6 +299,14 @@ void vtkGreensFunctionIdentification::Compute(
   {
     convert::setRegistration(output, *registration);
     convert::setRegistrationDeviations(output, result);
+  }
+  if (this->EstimateError && body.Regions > 1 && !this->YieldingSupport)
+  {
+    if (const Eigen::VectorXd off = body.OffByMesh(identifier, measurements, result, progress.part(0.95, 1));
+        off.size() > 0)
+    {
+      convert::setColumn(output, palpate::arrays::ParametersOffByMesh, { off.begin(), off.end() });
+    }
   }
   this->MarkPatches(body.Boundary ? body.Boundary.Get() : input, model, output);
 }
