@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "mesh/subdivision.h"
-#include "mesh/tetrahedral_subdivision.h"
+#include "mesh/tetrahedral_refinement.h"
 
 namespace palpate {
 namespace {
@@ -26,7 +26,7 @@ ElasticModel halved(const ElasticModel& coarse) {
 
 RefinedRegions::RefinedRegions(const ElasticModel& coarse, const TetrahedralMesh& cells,
                                const std::vector<int>& regions)
-    : model(halved(coarse)), mesh(subdivided(cells)) {
+    : model(halved(coarse)), mesh(refineTetrahedra(cells)) {
   for (int region : regions) regionOfCell.insert(regionOfCell.end(), 8, region);
 }
 
